@@ -22,7 +22,7 @@ from ...shapes.support_function import Core, is_round
 from ...vectors import Vector3, dot
 from ..smooth.boxy_line import across_line
 from ..smooth.newton import RIGHT, ROUND_OFF, has_ended
-from ..smooth.round_search import next_to_axis, round_circle
+from ..smooth.round_search import round_circle
 from ..smooth.smooth_core import Axes, Cores, NearestPoint, bend, facing_point, rotated_back
 from ..smooth.smooth_newton import widest_of_round
 from .frustum import FLANK, HIGH_CAP, LOW_CAP, LOW_RIM, rim_of
@@ -286,9 +286,5 @@ def by_search(pair: Pair, direction: Direction, part: int) -> NearestPoint:
     px, py, _ = lowest_point(pair, (0.0, 0.0, side))
     if px * px + py * py == 0.0:
         px, py = direction
-    found: NearestPoint = (math.nan, center, (0.0, 0.0, 1.0))
-    if is_round(core) and radius > 0.0:
-        found = next_to_axis(core, turn, center, radius, (px, py, 0.0), side)
-    if math.isnan(found[0]):
-        found = round_circle(pair.point, core, turn, center, radius, (px, py, 0.0))
+    found = round_circle(pair.point, core, turn, center, radius, (px, py, 0.0))
     return _if_in_cone(pair, part, -_NEAR_BORDER, found)

@@ -21,10 +21,9 @@ from ...shapes.support_function import Core, support_of
 from ...vectors import Vector3, dot, minus, plus, plus_scaled
 from .bracket import Bracket, narrowed, next_place
 from .inscribed import gauge
-from .smooth_core import POINT, Axes, Cores, NearestPoint, facing_point, largest_semi_axis, rotated_back, spread
+from .smooth_core import POINT, Axes, Cores, NearestPoint, facing_point, largest_semi_axis, rotated_back
 from .smooth_newton import widest_of_round
 from .smooth_starts import Start, gap_along, largest_near, local_maximum, starts_of
-from .tangent_plane import bends_in_plane, determinant, solved
 
 _FIRST = 1e-3
 """First step round the circle [rad]; each further step is twice as long as the one before."""
@@ -43,13 +42,6 @@ _OVER = 1e-11
 """Largest distance of the body's contact point from its surface, relative to the size of both bodies."""
 _GOLDEN = 0.3819660112501051
 """Golden-section search: distance of its two inner points from the ends of the interval, (3 - sqrt 5) / 2 of it."""
-
-_NEWTON, _CLOSED, _STEEPEST = 20, 1e-15, 0.5
-"""Limits of Newton's method for a normal close to the axis of the circle (:func:`next_to_axis`).
-
-``_NEWTON``: largest number of steps.  ``_CLOSED``: largest residual of a solution, relative to the size of the bodies.
-``_STEEPEST``: angle between normal and axis at which the method gives up [rad].
-"""
 
 Sample: TypeAlias = tuple[float, NearestPoint]
 """Derivative of the distance by the arc length of the circle [1], and the solution for one point of the circle.
@@ -115,44 +107,6 @@ def _between(cores: Cores, radius: float, sides: Bracket) -> NearestPoint:
         sides = narrowed(sides, angle, slope)
     # deep in the body the nearest surface point is discontinuous along the circle: no stationary point
     return result[0] if abs(slope) <= _ACROSS else math.nan, result[1], result[2]
-
-
-@compiled
-def next_to_axis(core: Core, turn: Axes, center: Vector3, radius: float, start: Vector3, up: float) -> NearestPoint:
-    """Return the result of :func:`round_circle` by Newton's method, for a normal close to the axis of the circle.
-
-    The method requires a round core, whose radii of curvature are finite, and also finds overlaps.  The unknowns are
-    the tilt, which is the angle between normal and axis and starts at 0, and the angle round the axis, which starts at
-    the direction ``start``.  The residuals are the derivative of the gap by the tilt, and that by the angle, divided by
-    the sine of the tilt; ``matrix`` is their Jacobian.  With these unknowns the equations are regular at the axis.  The
-    normal is close to the axis if ``up`` is 1, to its opposite if ``up`` is -1.  The gap is nan without convergence.
-    """
-    tilt, angle = 0.0, math.atan2(start[1], start[0])
-    size = spread(center) + largest_semi_axis(core) + radius
-    for _ in range(_NEWTON):
-        c, s = math.cos(angle), math.sin(angle)
-        sine, cosine = math.sin(tilt), math.cos(tilt)
-        n, n_by_tilt = (sine * c, sine * s, up * cosine), (cosine * c, cosine * s, -up * sine)
-        p, bends = facing_point(core, turn, center, n)
-        g = dot(n, p) - radius * sine
-        by_tilt, by_angle = dot(n_by_tilt, p) - radius * cosine, c * p[1] - s * p[0]
-        h11, h12, h22 = bends_in_plane(bends, rotated_back(turn, n_by_tilt), rotated_back(turn, (-s, c, 0.0)))
-        matrix = -g - h11, cosine * by_angle - sine * h12, -h12, -(c * p[0] + s * p[1]) - sine * h22
-        det = determinant(matrix)
-        # the gap must be near a maximum
-        if not (matrix[0] < 0.0 and det > 0.0):
-            break
-        if abs(by_tilt) + abs(by_angle) <= _CLOSED * size:
-            # a negative tilt: the normal points into the disc
-            if tilt < -_CLOSED:
-                break
-            return g, p, n
-        tilt_step, angle_step = solved(matrix, det, (by_tilt, by_angle))
-        tilt -= tilt_step
-        angle -= angle_step
-        if abs(tilt) > _STEEPEST:
-            break
-    return math.nan, center, (0.0, 0.0, 1.0)
 
 
 @compiled

@@ -14,13 +14,13 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import Core, is_boxy, is_mixed, is_round, support_of
-from ...vectors import Vector3, divided, dot, minus, norm, opposite, plus, plus_scaled
+from ...vectors import Vector3, divided, dot, norm, opposite, plus, plus_scaled
 from .boxy_line import across_line
 from .boxy_newton import gap_by_point, write_boxy
 from .chart import write_chart
 from .chart_newton import gap_by_chart
 from .dual_newton import gap_by_normal
-from .inscribed import gauge, is_least_overlap
+from .inscribed import is_least_overlap
 from .overlap_proof import do_overlap
 from .smooth_core import (
     POINT,
@@ -29,7 +29,6 @@ from .smooth_core import (
     Cores,
     NearestPoint,
     inverse,
-    largest_semi_axis,
     rotated,
     rotated_back,
     semi_axes_of,
