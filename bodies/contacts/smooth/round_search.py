@@ -20,8 +20,7 @@ from nonsmooth.compiled import compiled
 from ...shapes.support_function import Core, support_of
 from ...vectors import Vector3, dot, minus, plus, plus_scaled
 from .bracket import Bracket, narrowed, next_place
-from .inscribed import gauge
-from .smooth_core import POINT, Axes, Cores, NearestPoint, facing_point, largest_semi_axis, rotated_back
+from .smooth_core import POINT, Axes, Cores, NearestPoint
 from .smooth_newton import widest_of_round
 from .smooth_starts import Start, gap_along, largest_near, local_maximum, starts_of
 
@@ -40,9 +39,6 @@ _TOP = 1e-9
 """Angle to a maximum of the gap at which the steps to it end [rad]."""
 _OVER = 1e-11
 """Largest distance of the body's contact point from its surface, relative to the size of both bodies."""
-_GOLDEN = 0.3819660112501051
-"""Golden-section search: distance of its two inner points from the ends of the interval, (3 - sqrt 5) / 2 of it."""
-
 Sample: TypeAlias = tuple[float, NearestPoint]
 """Derivative of the distance by the arc length of the circle [1], and the solution for one point of the circle.
 
@@ -180,9 +176,7 @@ def up_hills(circle: Core, core: Core, turn: Axes, center: Vector3, up: float, l
                 continue
             solution = _solution_of(circle, (gap_at_limit, n))
         if not solution[0] <= best[0]:
-            solution, off_surface = _facing_points(circle, core, turn, center, solution)
-            if off_surface <= _OVER * limit[2]:
-                best = solution
+            best = solution
     return best
 
 
@@ -200,59 +194,3 @@ def _solution_of(circle: Core, top: Start) -> NearestPoint:
     """
     g, n = top
     return g, plus_scaled(support_of(circle, n)[1], g, n), n
-
-
-@compiled
-def _facing_points(
-    circle: Core, core: Core, turn: Axes, center: Vector3, solution: NearestPoint
-) -> tuple[NearestPoint, float]:
-    """Return a solution whose two points face each other, and the distance of the body's point from its surface [m].
-
-    Close to a sharp place of the body, the gap is accurate to round-off, but the normal is not.  If the normal is
-    nearly the axis, its radial component is round-off, and so is the direction of the circle's farthest point.  A
-    search along the circle finds its point p for which p + gap normal is nearest to the surface of the body.
-    """
-    g, p, n = solution
-    extent, radius = largest_semi_axis(core), circle[0]
-    best: NearestPoint = solution
-    least = _off_surface(core, turn, center, p)
-    # a point has no arc, and a body's point on the surface is exact
-    if radius == 0.0 or not least > _SAME:
-        return best, least * extent
-    q, _ = facing_point(core, turn, center, n)
-    q, c = plus_scaled(q, -g, n), plus_scaled(p, -g, n)
-    # search an arc about the direction of q, from the body's support point; it includes the circle's present point c
-    middle = math.atan2(q[1], q[0])
-    is_off_axis = c[0] * c[0] + c[1] * c[1] > 0.0
-    half_width = abs(math.atan2(c[0] * q[1] - c[1] * q[0], c[0] * q[0] + c[1] * q[1])) if is_off_axis else 0.0
-    low, high = middle - half_width - _FIRST, middle + half_width + _FIRST
-    for _ in range(_STEPS):
-        angle_1, angle_2 = low + _GOLDEN * (high - low), high - _GOLDEN * (high - low)
-        point_1, point_2 = _over_rim(radius, angle_1, g, n), _over_rim(radius, angle_2, g, n)
-        off_1, off_2 = _off_surface(core, turn, center, point_1), _off_surface(core, turn, center, point_2)
-        if off_1 < least:
-            least, best = off_1, (g, point_1, n)
-        if off_2 < least:
-            least, best = off_2, (g, point_2, n)
-        if high - low <= _SAME or least <= _SAME:
-            break
-        if off_1 < off_2:
-            high = angle_2
-        else:
-            low = angle_1
-    return best, least * extent
-
-
-@compiled
-def _over_rim(radius: float, angle: float, g: float, n: Vector3) -> Vector3:
-    """Return the point at the distance g [m] along n from the circle's point at an angle [rad]."""
-    return radius * math.cos(angle) + g * n[0], radius * math.sin(angle) + g * n[1], g * n[2]
-
-
-@compiled
-def _off_surface(core: Core, turn: Axes, center: Vector3, point: Vector3) -> float:
-    """Return abs(gauge - 1) of a point [1], a residual: 0 on the surface of the core, positive inside and outside.
-
-    ``point`` is in the axes of the circle [m].  The gauge has a closed form, which the distance has not.
-    """
-    return float(abs(gauge(core, rotated_back(turn, minus(point, center))) - 1.0))
