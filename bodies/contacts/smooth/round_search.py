@@ -159,10 +159,6 @@ def up_hills(circle: Core, core: Core, turn: Axes, center: Vector3, up: float, l
         solution = widest_of_round(circle, core, turn, center, top[1])
         # Newton's method went to a smaller maximum, or did not converge
         if not solution[0] >= top[0] - _TOP * limit[2]:
-            settled = largest_near(cores, top)
-            # if two maxima differ by round-off only, the ellipsoid method may go from one to the other
-            if _is_in_range(settled[1], up, limit) or not _is_in_range(top[1], up, limit):
-                top = settled
             solution = _solution_of(circle, top)
         g, _, n = solution
         if not _is_in_range(n, up, limit):
