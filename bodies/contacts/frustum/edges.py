@@ -31,15 +31,25 @@ from ...vectors import (
 from ..features.edge_crossing import PARALLEL, sine_off_cone
 from ..features.edge_row import ALONG, LENGTH, START
 from ..features.ends import CLOSED, gap_past_end
-from ..features.frames import across, point_in_body, point_in_world, vector_in_world
-from ..features.writing import write_principal, write_sweep
+from ..features.frames import point_in_body, point_in_world, vector_in_world
+from ..features.writing import write_principal
 from ..smooth.smooth_core import Axes, axes_in_world, rotated, rotated_back
 from ..surface.overlap_corners import FLUSH
 from ..surface.surface_search import edge_at, past_edge, signed_distance
 from ..surface.surface_tables import IS_CONVEX, N_TRIANGLES, SWEEP
 from .circle import zero_of_slope
-from .frustum import FLANK, center_in_world, nearest_part, rim_of, write_part
-from .frustum_writing import off_cone_of_rim, past_border, write_contact
+from .frustum import (
+    FLANK,
+    Placed,
+    Spot,
+    center_in_world,
+    from_core,
+    off_cone_of_rim,
+    past_border,
+    rim_of,
+    write_contact,
+    write_spot,
+)
 from .over_faces import frustum_in_surface, past_faces
 
 _STEEP = 0.5
@@ -269,8 +279,8 @@ def _past_bodies(b: Floats, out: Floats, frustum: Floats, seen: _Edge, surface: 
     outside -= surface[SWEEP]
     if outside > margin:
         axis = (seen.axes[2], seen.axes[5], seen.axes[8])
-        along, away, _ = across(minus(vector_at(out, POINT_B), seen.center), axis)
-        outside = min(outside, nearest_part(frustum, along, away)[0] - frustum[FRUSTUM_SWEEP])
+        placed = Placed(frustum, seen.center, axis)
+        outside = min(outside, from_core(placed, vector_at(out, POINT_B)) - frustum[FRUSTUM_SWEEP])
     return float(outside - margin)
 
 
@@ -310,8 +320,8 @@ def _write_crossing(
     gap = gap_past_end(crossing.distance - radius - sweep, max(PARALLEL, crossing.sine) * past, is_convex)
     point = plus_scaled(plus(seen.center, rotated(axes, crossing.point)), sweep, normal)
     write_contact(a, out, gap, past, 0.0, normal, point, False)
-    write_part(out, SIDE_A, part, (axes[2], axes[5], axes[8]), outward, dot(normal, outward), crossing.away)
-    write_sweep(out, SIDE_A, sweep)
+    placed = Placed(frustum, seen.center, (axes[2], axes[5], axes[8]))
+    write_spot(out, SIDE_A, Spot(placed, part, outward, crossing.away), normal)
     write_principal(out, SIDE_B, vector_in_world(b, vector_at(edge, ALONG)), 0.0, 1.0, 1.0, radius)
     if past > 0.0:
         return

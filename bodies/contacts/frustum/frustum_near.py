@@ -14,11 +14,19 @@ from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus
 from ..features.edge_crossing import CONE_MARGIN
 from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 from ..features.ends import CLOSED
-from ..features.frames import across
 from ..surface.surface_search import face_at, in_triangle, steepest
 from ..surface.surface_tables import CORNER, CORNERS, FACE_NUMBER, SWEEP
-from .frustum import FLANK, HIGH_CAP, LOW_CAP, Placed, nearest_part, normal_of_part, over_part
-from .frustum_writing import off_cone_of_rim
+from .frustum import (
+    FLANK,
+    HIGH_CAP,
+    LOW_CAP,
+    Placed,
+    from_axis,
+    nearest_part,
+    normal_of_part,
+    off_cone_of_rim,
+    over_part,
+)
 from .over_faces import lowest_on_rim
 
 _HALVINGS = 40
@@ -53,16 +61,9 @@ class _Segment(NamedTuple):
 
 
 @compiled
-def from_core(frustum: Placed, point: Vector3) -> float:
-    """Return the signed distance of a point from the frustum's core [m]; negative inside."""
-    along, away, _ = across(minus(point, frustum.center), frustum.axis)
-    return float(nearest_part(frustum.numbers, along, away)[0])
-
-
-@compiled
 def _from_rim(frustum: Placed, upper: int, point: Vector3) -> float:
     """Return the distance of a point from a rim of the core [m]; ``upper`` is 1 for the upper rim, 0 for the lower."""
-    along, away, _ = across(minus(point, frustum.center), frustum.axis)
+    along, away, _ = from_axis(frustum, point)
     return math.hypot(along - frustum.numbers[LOW + upper], away - frustum.numbers[LOW_RADIUS + upper])
 
 
@@ -123,7 +124,7 @@ def _edge_comes_near(frustum: Placed, edge: _Segment, reach: float) -> bool:
     low, high = 0.0, edge.length
     for _ in range(_HALVINGS):
         s, half = 0.5 * (low + high), 0.5 * (high - low)
-        along, away, outward = across(minus(plus_scaled(edge.start, s, edge.along), frustum.center), frustum.axis)
+        along, away, outward = from_axis(frustum, plus_scaled(edge.start, s, edge.along))
         distance, radial, axial, _ = nearest_part(frustum.numbers, along, away)
         if distance <= reach:
             return True
@@ -215,9 +216,10 @@ def corner_is_near(search: Search, corner: int) -> bool:
     corner.  A sharp corner touches a cap or the side of a sharp frustum only if none of its edges leads into the
     frustum more steeply than ``CONE_MARGIN``.
     """
-    surface, (numbers, center, axis), reach, turn, size = search
+    surface, frustum, reach, turn, size = search
+    numbers, _, axis = frustum
     row, sweep = int(surface[CORNERS]) + CORNER * corner, numbers[FRUSTUM_SWEEP] + surface[SWEEP]
-    along, away, outward = across(minus(vector_at(surface, row), center), axis)
+    along, away, outward = from_axis(frustum, vector_at(surface, row))
     distance, radial, axial, _ = nearest_part(numbers, along, away)
     if distance > reach:
         return False

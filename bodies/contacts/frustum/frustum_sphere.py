@@ -12,19 +12,21 @@ from nonsmooth.types import Floats
 
 from ...shapes.frustum import SWEEP, Frustum, without_feet
 from ...shapes.sphere import Sphere
-from ...vectors import Vector3, minus, plus_scaled, scaled, vector_at, write_vector
+from ...vectors import Vector3, vector_at, write_vector
 from ..features.ends import ended_gap, past_star
-from ..features.frames import across, point_in_world
-from ..features.writing import place_sphere, write_round, write_sweep
+from ..features.frames import point_in_world
+from ..features.writing import place_sphere, write_round
 from .frustum import (
     HIGH_CAP,
     LOW_CAP,
-    axis_in_world,
-    center_in_world,
+    Spot,
+    from_axis,
     nearest_part,
+    normal_of_part,
     part_names,
     part_number,
-    write_part,
+    placed,
+    write_spot,
 )
 
 
@@ -38,15 +40,14 @@ def write_frustum_ball(
     the point in the world [m], its signed distance from the frustum's core [m], and the nearest part, such as
     ``FLANK``.
     """
-    axis, point = axis_in_world(a, first), point_in_world(b, place)
-    along, away, outward = across(minus(point, center_in_world(a, first)), axis)
+    frustum, point = placed(a, first), point_in_world(b, place)
+    along, away, outward = from_axis(frustum, point)
     distance, radial, axial, part = nearest_part(first, along, away)
-    write_vector(out, NORMAL, plus_scaled(scaled(radial, outward), axial, axis))
+    normal = normal_of_part(frustum.axis, outward, radial, axial)
+    write_vector(out, NORMAL, normal)
     out[FEATURE] = part_number(first, part)
     place_sphere(a, out, point, distance - first[SWEEP], radius)
-    # the last argument is the distance of the core's contact point from the axis
-    write_part(out, SIDE_A, part, axis, outward, radial, away - distance * radial)
-    write_sweep(out, SIDE_A, first[SWEEP])
+    write_spot(out, SIDE_A, Spot(frustum, part, outward, away - distance * radial), normal)
     write_round(out, SIDE_B, radius)
     return point, distance, part
 

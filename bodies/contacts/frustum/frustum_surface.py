@@ -33,8 +33,8 @@ from ..surface.surface_tables import (
     surface_numbers,
 )
 from .edges import write_across_rim, write_across_side
-from .frustum import HIGH_RIM, LOW_RIM, apex_of, feet_of, part_names, rims_of, set_back
-from .frustum_near import Search, corner_is_near, edge_is_near, from_core, rim_is_near
+from .frustum import HIGH_RIM, LOW_RIM, apex_of, feet_of, from_core, part_names, rims_of, set_back
+from .frustum_near import Search, corner_is_near, edge_is_near, rim_is_near
 from .frustum_sphere import write_frustum_vertex
 from .over_faces import frustum_in_surface, write_apex, write_corner, write_rim, write_tip
 

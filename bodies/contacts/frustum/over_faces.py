@@ -17,7 +17,7 @@ from ...vectors import Vector3, dot, minus, norm, opposite, plus_scaled, vector_
 from ..features.edge_crossing import CONE_MARGIN
 from ..features.ends import CLOSED, END, NEAR, OPEN, REACH, gap_at_distance, gap_past_end
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
-from ..features.writing import write_flat, write_round, write_sweep
+from ..features.writing import write_flat, write_round
 from ..surface.overlap_corners import FLUSH
 from ..surface.surface_ball import out_of_surface, write_feature
 from ..surface.surface_search import (
@@ -46,17 +46,20 @@ from .frustum import (
     LOW_CAP,
     LOW_RIM,
     Placed,
+    Spot,
     axis_in_world,
     center_in_world,
     least_height,
     normal_of_part,
+    off_cone_of_rim,
     on_axis_in_world,
     over_part,
     part_number,
+    past_apex,
     past_of_rim,
-    write_part,
+    write_contact,
+    write_spot,
 )
-from .frustum_writing import off_cone_of_rim, past_apex, write_contact
 
 _FLAT = 1e-12
 """Sine of the angle between the planes of rim and face below which the lowest point of the rim is round-off."""
@@ -196,11 +199,10 @@ def write_rim(
     placed, reach = frustum_in_surface(a, b, frustum), reach + 2.0 * radius
     gap, past = _rim_over(surface, face, placed, upper, vector_in_body(b, otherwise), reach)
     n = vector_in_world(b, opposite(vector_at(surface, face_at(surface, face))))
-    _, radial, outward = lowest_on_rim(n, axis, otherwise)
+    _, _, outward = lowest_on_rim(n, axis, otherwise)
     point = plus_scaled(plus_scaled(center, radius, outward), sweep, n)
     write_contact(a, out, gap, past, float(face), n, point, False)
-    write_part(out, SIDE_A, LOW_RIM, axis, outward, radial, radius)
-    write_sweep(out, SIDE_A, sweep)
+    write_spot(out, SIDE_A, Spot(Placed(frustum, center, axis), LOW_RIM, outward, radius), n)
     write_flat(out, SIDE_B)
 
 
@@ -344,5 +346,6 @@ def write_corner(
     _, _, radial, axial = over_part(frustum, nearest, along, away)
     normal = normal_of_part(axis, outward, radial, axial)
     write_contact(a, out, gap, past, part_number(frustum, nearest), normal, point, True)
-    write_part(out, SIDE_A, nearest, axis, outward, radial, max(away - gap * radial, 0.0))
+    spot = Spot(Placed(frustum, center, axis), nearest, outward, max(away - gap * radial, 0.0))
+    write_spot(out, SIDE_A, spot, normal)
     write_round(out, SIDE_B, 0.0)

@@ -19,8 +19,18 @@ from ..features.ends import CLOSED, REACH
 from ..features.frames import across
 from ..smooth.smooth_core import axes_in_world, rotated, rotated_back
 from .circle import least_sample, zero_of_slope
-from .frustum import FLANK, LOW_RIM, placed, rim_of
-from .frustum_writing import Spot, off_cone_of_rim, off_side, past_border, past_depth, write_pair
+from .frustum import (
+    FLANK,
+    LOW_RIM,
+    Spot,
+    off_cone_of_rim,
+    off_side,
+    past_border,
+    past_depth,
+    placed,
+    rim_of,
+    write_pair,
+)
 
 _BOTH = 1e-9
 """Overlap of the two halves of the first rim at the line of centres [rad]; no crossing is missed between the halves."""
@@ -210,6 +220,6 @@ def evaluate_rims(
     normal, from_center = rotated(axes, n), rotated(axes, (point[0], point[1], point[2] + height_b))
     # of two discs edge to edge, the second rim has the curvature of a cylinder's side, so that the normal stays radial
     # while one edge slips over the other
-    own = Spot(LOW_RIM, rotated(axes, u), radius)
-    other = Spot(FLANK if is_edge_to_edge else LOW_RIM, rotated(axes, e), other_radius)
-    write_pair(a, out, 0.0, one, two, gap, past, normal, plus(two.center, from_center), own, other)
+    own = Spot(one, LOW_RIM, rotated(axes, u), radius)
+    other = Spot(two, FLANK if is_edge_to_edge else LOW_RIM, rotated(axes, e), other_radius)
+    write_pair(a, out, 0.0, gap, past, normal, plus(two.center, from_center), own, other)

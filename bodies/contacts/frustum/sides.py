@@ -14,8 +14,18 @@ from ..features.edge_crossing import least_round_sine
 from ..features.frames import across, tangent_of
 from ..smooth.smooth_core import axes_in_world, rotated, rotated_back
 from .circle import least_sample, zero_of_slope
-from .frustum import FLANK, Placed, placed, rim_of
-from .frustum_writing import Spot, off_cone_of_rim, past_border, past_depth, write_pair
+from .frustum import (
+    FLANK,
+    Placed,
+    Spot,
+    along_side,
+    off_cone_of_rim,
+    past_border,
+    past_depth,
+    placed,
+    rim_of,
+    write_pair,
+)
 
 _STEEP = math.pi / 6.0
 """Angle between the plane of the rim and the side [rad], above which the rim has one minimum of the height only."""
@@ -91,11 +101,11 @@ def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Flo
         gap = dot(n, plus_scaled(plus_scaled(w, t, v), -s, u))
     p = plus_scaled(p, s, u)
     # distances of the contact points from the axes are not negative past an apex
-    own = Spot(FLANK, minus(p, one.center), max(first[LOW_RADIUS] - first[SIN] * s, 0.0))
+    own = Spot(one, FLANK, minus(p, one.center), max(first[LOW_RADIUS] - first[SIN] * s, 0.0))
     offset = minus(plus_scaled(p, gap, n), two.center)
-    other = Spot(FLANK, offset, max(second[LOW_RADIUS] - second[SIN] * t, 0.0))
+    other = Spot(two, FLANK, offset, max(second[LOW_RADIUS] - second[SIN] * t, 0.0))
     past = max(past_border(past_ends, 0.0, size), past_depth(one, two, gap, size))
-    write_pair(a, out, 0.0, one, two, gap, past, n, p, own, other)
+    write_pair(a, out, 0.0, gap, past, n, p, own, other)
 
 
 class _Rim(NamedTuple):
@@ -126,7 +136,7 @@ def _height(rim: _Rim, angle: float) -> tuple[float, float, float]:
     slope = (x * dx + y * dy) / away
     bend = (dx * dx + dy * dy - x * (x - middle[0]) - y * (y - middle[1]) - slope * slope) / away
     cosine, sine = second[COS], second[SIN]
-    value = cosine * (away - second[LOW_RADIUS]) + sine * (z - second[LOW])
+    value, _ = along_side(second, z, away)
     return value, cosine * slope + sine * dz, cosine * bend - sine * (z - middle[2])
 
 
@@ -186,25 +196,21 @@ def evaluate_rim_over_side(
     away = math.sqrt(point[0] * point[0] + point[1] * point[1])
     ex, ey = (point[0] / away, point[1] / away) if away > 0.0 else (1.0, 0.0)
     cosine, sine = second[COS], second[SIN]
-    # height of the point over the side, and its coordinate along the side from the lower rim
-    gap = cosine * (away - second[LOW_RADIUS]) + sine * (point[2] - second[LOW])
-    along = cosine * (point[2] - second[LOW]) - sine * (away - second[LOW_RADIUS])
+    gap, up_side = along_side(second, point[2], away)
     n = (-cosine * ex, -cosine * ey, -sine)
     # check that the contact normal is a normal of the rim
     axial = dot(n, axis)
     radial = dot(n, offset) / radius if radius > 0.0 else math.sqrt(max(1.0 - axial * axial, 0.0))
-    past_ends = max(-along, along - second[SIDE])
+    past_ends = max(-up_side, up_side - second[SIDE])
     if first[SWEEP] + second[SWEEP] > 0.0:
         # extend the side past its end, until the contact of both rims is valid
         past_ends -= _EXTENSION * size
     if not has_minimum or (is_steep and half < 0.0):
         # a steep pose has one minimum: that contact belongs to one half only
         past_ends = size
-    normal, from_axis = rotated(axes, n), rotated(axes, point)
+    normal, to_point = rotated(axes, n), rotated(axes, point)
     past = past_border(past_ends, off_cone_of_rim(first, up, radial, axial), size)
     past = max(past, past_depth(one, two, gap, size))
-    of_rim, of_side = (
-        Spot(int(rim), rotated(axes, offset), radius),
-        Spot(FLANK, from_axis, max(away - gap * cosine, 0.0)),
-    )
-    write_pair(a, out, swap, one, two, gap, past, normal, plus(two.center, from_axis), of_rim, of_side)
+    of_rim = Spot(one, int(rim), rotated(axes, offset), radius)
+    of_side = Spot(two, FLANK, to_point, max(away - gap * cosine, 0.0))
+    write_pair(a, out, swap, gap, past, normal, plus(two.center, to_point), of_rim, of_side)
