@@ -53,59 +53,107 @@ def _across_both(a: Vector3, b: Vector3) -> tuple[Vector3, float]:
     return (divided(v, size), size) if size > 0.0 else (tangent_of(a), 0.0)
 
 
+class Side(NamedTuple):
+    """The side of a frustum in the world, continued past its rims, or an edge, which is a side of radius 0."""
+
+    low: Vector3
+    """Centre of the lower rim, or first end of the edge [m]."""
+    axis: Vector3
+    """Unit axis, upwards."""
+    radius: float
+    """Radius of the lower rim [m]."""
+    length: float
+    """Length from rim to rim [m]."""
+    cosine: float
+    """Radial component of the outward normal."""
+    sine: float
+    """Axial component of the outward normal."""
+
+
+class SideCrossing(NamedTuple):
+    """Crossing of two sides: they have a common normal at the points where two straight lines of them cross."""
+
+    gap: float
+    """Distance of the sides along the normal [m]."""
+    normal: Vector3
+    """Normal from the first side to the second, in the world."""
+    point: Vector3
+    """Contact point of the first side in the world [m]."""
+    up: float
+    """Coordinate of this point up the first side, from its lower rim [m]."""
+    other_up: float
+    """Coordinate of the other contact point up the second side [m]."""
+    past_ends: float
+    """Distance of the contact points past the ends of the sides [m]."""
+    sine: float
+    """Sine of the angle between both lines."""
+
+
 @compiled
-def _line(frustum: Placed, n: Vector3) -> tuple[Vector3, Vector3]:
-    """Return the straight line of the side with the outward normal n: its lower end [m] and unit vector upwards."""
-    numbers, axis = frustum.numbers, frustum.axis
-    outward = divided(plus_scaled(n, -numbers[SIN], axis), numbers[COS])
-    low = plus_scaled(plus_scaled(frustum.center, numbers[LOW], axis), numbers[LOW_RADIUS], outward)
-    return low, plus_scaled(scaled(numbers[COS], axis), -numbers[SIN], outward)
+def side_of(frustum: Placed) -> Side:
+    """Return the side of a frustum."""
+    numbers, center, axis = frustum
+    low = plus_scaled(center, numbers[LOW], axis)
+    return Side(low, axis, numbers[LOW_RADIUS], numbers[SIDE], numbers[COS], numbers[SIN])
 
 
-def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, size: float) -> None:
-    """Write the geometry block of the crossing of the sides of two frustums, which must have no feet.
+@compiled
+def _line(side: Side, n: Vector3) -> tuple[Vector3, Vector3]:
+    """Return the straight line of a side with the outward normal n: its lower end [m] and unit vector upwards."""
+    outward = divided(plus_scaled(n, -side.sine, side.axis), side.cosine)
+    return plus_scaled(side.low, side.radius, outward), plus_scaled(scaled(side.cosine, side.axis), -side.sine, outward)
+
+
+@compiled
+def cross_sides(one: Side, two: Side, least_sine: float, size: float) -> SideCrossing:
+    """Return the crossing of two sides.
 
     The common normal n of both sides has a fixed angle to each axis.  This leaves two mirror images of n; bodies apart
     are separated along the one with the larger gap.  On each side the points with the normal n are a straight line.
-    The contact points are those at which both lines cross.  If no such normal exists, or the lines are nearly parallel,
-    there is no crossing: the middle of a line is written, past the end of the features by ``size``, the size of the
-    bodies [m].
+    The contact points are those at which both lines cross.  If no such normal exists, or the sine of the angle between
+    the lines is at most ``least_sine``, there is no crossing: the middle of a line is returned, past the end of the
+    sides by ``size``, the size of the bodies [m].
     """
-    one, two = placed(a, first), placed(b, second)
     # n = n_a a + n_e e + n_c c, with the axis a, and unit vectors c along a x b and e = c x a. The sines of the sides
     # give n . a and -n . b, and |n| = 1 gives n_c
     c, sine = _across_both(one.axis, two.axis)
-    e, n_a = cross(c, one.axis), first[SIN]
-    n_e = (-second[SIN] - dot(one.axis, two.axis) * n_a) / sine if sine > 0.0 else 0.0
+    e, n_a = cross(c, one.axis), one.sine
+    n_e = (-two.sine - dot(one.axis, two.axis) * n_a) / sine if sine > 0.0 else 0.0
     n_c_squared = 1.0 - n_a * n_a - n_e * n_e
     n_c = math.sqrt(max(n_c_squared, 0.0))
     gap, n = -math.inf, (1.0, 0.0, 0.0)
-    # support functions of the infinite cones of both sides, along n and -n
-    support_a = first[COS] * first[LOW_RADIUS] + first[SIN] * first[LOW]
-    support_b = second[COS] * second[LOW_RADIUS] + second[SIN] * second[LOW]
     for sign in (-1.0, 1.0):
         candidate = plus_scaled(plus(scaled(n_a, one.axis), scaled(n_e, e)), sign * n_c, c)
         candidate = divided(candidate, norm(candidate))
-        separation = dot(candidate, minus(two.center, one.center)) - support_a - support_b
+        separation = dot(candidate, minus(two.low, one.low)) - one.cosine * one.radius - two.cosine * two.radius
         if separation > gap:
             gap, n = separation, candidate
     (p, u), (q, v) = _line(one, n), _line(two, opposite(n))
     w, crossing = minus(q, p), dot(n, cross(u, v))
     # distances of the contact points along the lines, from their lower ends
-    s, t, past_ends = 0.5 * first[SIDE], 0.5 * second[SIDE], size
-    round_radius = first[LOW_RADIUS] + second[LOW_RADIUS] + first[SWEEP] + second[SWEEP]
-    if n_c_squared >= 0.0 and abs(crossing) > least_round_sine(round_radius, size):
+    s, t, past_ends = 0.5 * one.length, 0.5 * two.length, size
+    if n_c_squared >= 0.0 and abs(crossing) > least_sine:
         s, t = dot(n, cross(w, v)) / crossing, dot(n, cross(w, u)) / crossing
-        past_ends = max(max(-s, s - first[SIDE]), max(-t, t - second[SIDE]))
+        past_ends = max(max(-s, s - one.length), max(-t, t - two.length))
         # the distance along n of the points that cross: an error of n hardly changes it
         gap = dot(n, plus_scaled(plus_scaled(w, t, v), -s, u))
-    p = plus_scaled(p, s, u)
+    return SideCrossing(gap, n, plus_scaled(p, s, u), s, t, past_ends, abs(crossing))
+
+
+def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, size: float) -> None:
+    """Write the geometry block of the crossing of the sides of two frustums, which must have no feet.
+
+    ``size`` is the size of the bodies [m].
+    """
+    one, two = placed(a, first), placed(b, second)
+    round_radius = first[LOW_RADIUS] + second[LOW_RADIUS] + first[SWEEP] + second[SWEEP]
+    found = cross_sides(side_of(one), side_of(two), least_round_sine(round_radius, size), size)
     # distances of the contact points from the axes are not negative past an apex
-    own = Spot(one, FLANK, minus(p, one.center), max(first[LOW_RADIUS] - first[SIN] * s, 0.0))
-    offset = minus(plus_scaled(p, gap, n), two.center)
-    other = Spot(two, FLANK, offset, max(second[LOW_RADIUS] - second[SIN] * t, 0.0))
-    past = max(past_border(past_ends, 0.0, size), past_depth(one, two, gap, size))
-    write_pair(a, out, 0.0, gap, past, n, p, own, other)
+    own = Spot(one, FLANK, minus(found.point, one.center), max(first[LOW_RADIUS] - first[SIN] * found.up, 0.0))
+    offset = minus(plus_scaled(found.point, found.gap, found.normal), two.center)
+    other = Spot(two, FLANK, offset, max(second[LOW_RADIUS] - second[SIN] * found.other_up, 0.0))
+    past = max(past_border(found.past_ends, 0.0, size), past_depth(one, two, found.gap, size))
+    write_pair(a, out, 0.0, found.gap, past, found.normal, found.point, own, other)
 
 
 class _Rim(NamedTuple):
