@@ -38,12 +38,12 @@ from ..surface.overlap_corners import FLUSH
 from ..surface.surface_search import edge_at, past_edge, signed_distance
 from ..surface.surface_tables import IS_CONVEX, N_TRIANGLES, SWEEP
 from .circle import zero_of_slope
+from .crossings import Side, cross_sides, off_rim, side_of
 from .frustum import (
     FLANK,
     Placed,
     Spot,
     from_core,
-    off_cone_of_rim,
     past_border,
     placed,
     rim_of,
@@ -51,7 +51,6 @@ from .frustum import (
     write_spot,
 )
 from .over_faces import frustum_in_surface, past_faces
-from .sides import Side, cross_sides, side_of
 
 _STEEP = 0.5
 """Cosine of the angle between edge and axis, above which both contacts are searched on the half nearer to the edge.
@@ -146,9 +145,7 @@ def _off_cones(of_rim: Spot, up: float, b: Floats, edge: _Edge, n: Vector3) -> f
 
     n leads from the rim, the upper one if ``up`` is 1, else -1, to the edge; the sine is negative inside of both cones.
     """
-    numbers, _, axis = of_rim.frustum
-    off_rim = off_cone_of_rim(numbers, up, dot(of_rim.offset, n), dot(axis, n))
-    return max(off_rim, sine_off_cone(b, edge.row, 0, -1.0, n))
+    return max(off_rim(of_rim, up, n), sine_off_cone(b, edge.row, 0, -1.0, n))
 
 
 @compiled
@@ -188,16 +185,18 @@ def _cross_rim(
     # the normal is perpendicular to the rim's tangent and to the edge
     n, apart = cross(cross(axis, e), d), norm(w)
     crossing_sine, spot = norm(n), Spot(frustum, int(rim), e, radius)
-    if is_round and apart > 1e-9 * size:
-        # cores that are apart: the line between both points, which round-off changes least
+    are_cores_apart = is_round and apart > 1e-9 * size
+    if are_cores_apart:
+        # the line between both points, which round-off changes least
         n = divided(w, apart)
-        off_cone = _off_cones(spot, up, b, edge, n)
+    elif crossing_sine > PARALLEL:
+        n = divided(n, crossing_sine)
     else:
+        n = e
+    off_cone, off_reversed = _off_cones(spot, up, b, edge, n), _off_cones(spot, up, b, edge, opposite(n))
+    if off_reversed <= off_cone and not are_cores_apart:
         # the sign for which the normal is nearer to the normal cones of rim and edge
-        n = divided(n, crossing_sine) if crossing_sine > PARALLEL else e
-        off_cone, off_reversed = _off_cones(spot, up, b, edge, n), _off_cones(spot, up, b, edge, opposite(n))
-        if off_reversed <= off_cone:
-            n, off_cone = opposite(n), off_reversed
+        n, off_cone = opposite(n), off_reversed
     if is_round:
         # a rounded edge along the tangent touches the rim at a single point, so the crossing is well defined
         crossing_sine = 1.0

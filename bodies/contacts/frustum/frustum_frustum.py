@@ -17,6 +17,7 @@ from ...shapes.frustum import FEET, HIGH, HIGH_RADIUS, LOW, LOW_RADIUS, SIDE, SW
 from ...vectors import Vector3, dot, minus, norm, plus_scaled, scaled, vector_at
 from ..features.ends import CLOSED, END, NEAR, REACH
 from ..features.frames import across, point_in_world
+from .crossings import evaluate_rim_over_side, evaluate_rims, evaluate_sides
 from .frustum import (
     FLATTEST,
     HIGH_CAP,
@@ -44,8 +45,6 @@ from .frustum import (
     set_back,
     write_pair,
 )
-from .rim_rim import evaluate_rims
-from .sides import evaluate_rim_over_side, evaluate_sides
 
 
 @compiled
