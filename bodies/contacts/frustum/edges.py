@@ -29,14 +29,14 @@ from ...vectors import (
     write_vector,
 )
 from ..features.edge_crossing import PARALLEL, sine_off_cone
-from ..features.edge_row import ALONG, LENGTH, START
+from ..features.edge_row import ALONG, LENGTH, START, Edge
 from ..features.ends import CLOSED, gap_past_end
 from ..features.frames import across, point_in_body, point_in_world, vector_in_world
 from ..features.writing import write_principal, write_sweep
 from ..smooth.smooth_core import Axes, axes_in_world, rotated, rotated_back
 from ..surface.overlap_corners import FLUSH
-from ..surface.surface_search import edge_at, past_edge, signed_distance
-from ..surface.surface_tables import IS_CONVEX, N_TRIANGLES, SWEEP
+from ..surface.surface_search import past_edge, signed_distance
+from ..surface.surface_tables import IS_CONVEX, N_TRIANGLES, SWEEP, edge_at
 from .circle import zero_of_slope
 from .frustum import FLANK, center_in_world, nearest_part, rim_of, write_part
 from .frustum_writing import off_cone_of_rim, past_border, write_contact
@@ -236,7 +236,7 @@ def _cross_rim(
             # rounded bodies: the normal must point from the rim to the edge, so skip the opposite sign
             continue
         off_rim = off_cone_of_rim(frustum, up, sign * (e[0] * n[0] + e[1] * n[1]), sign * n[2])
-        off_both = max(off_rim, sine_off_cone(b, edge, 0, -1.0, rotated(seen.axes, scaled(sign, n))))
+        off_both = max(off_rim, sine_off_cone(Edge(b, edge), -1.0, rotated(seen.axes, scaled(sign, n))))
         if off_both < least_off:
             least_off, off_cone, chosen_sign = off_both, off_rim, sign
     past_ends = max(-s, s - edge[LENGTH])
@@ -262,7 +262,7 @@ def _past_bodies(b: Floats, out: Floats, frustum: Floats, seen: _Edge, surface: 
     """
     margin, point = CLOSED * size - FLUSH * out[GAP], point_in_body(b, vector_at(out, POINT_A))
     if surface[N_TRIANGLES] == 0.0:
-        _, nearest = past_edge(surface, edge_at(surface, 0), point)
+        _, nearest = past_edge(edge_at(surface, 0), point)
         outside = norm(minus(point, nearest))
     else:
         outside = signed_distance(surface, point)
@@ -303,7 +303,7 @@ def _write_crossing(
     """
     axes, radius, sweep, is_convex = seen.axes, surface[SWEEP], frustum[FRUSTUM_SWEEP], surface[IS_CONVEX] == 1.0
     normal, outward = rotated(axes, crossing.normal), rotated(axes, crossing.outward)
-    off_cone = sine_off_cone(b, edge, 0, -1.0, normal)
+    off_cone = sine_off_cone(Edge(b, edge), -1.0, normal)
     past = past_border(crossing.past_ends, max(crossing.off_cone, off_cone), size)
     # features that are parallel have no definite point of crossing
     past = max(past, size * (PARALLEL - crossing.sine))
