@@ -30,13 +30,13 @@ from ...vectors import (
     write_vector,
 )
 from ..features.edge_crossing import PARALLEL, sine_off_cone
-from ..features.edge_row import ALONG, LENGTH, START
+from ..features.edge_row import LENGTH, Edge, direction_of, start_of
 from ..features.ends import CLOSED, gap_past_end
-from ..features.frames import across, point_in_body, point_in_world, vector_in_world
+from ..features.frames import across, point_in_body
 from ..features.writing import write_principal
 from ..surface.overlap_corners import FLUSH
-from ..surface.surface_search import edge_at, past_edge, signed_distance
-from ..surface.surface_tables import IS_CONVEX, N_TRIANGLES, SWEEP
+from ..surface.surface_search import past_edge, signed_distance
+from ..surface.surface_tables import IS_CONVEX, N_TRIANGLES, SWEEP, Solid, edge_at
 from .circle import zero_of_slope
 from .crossings import Side, cross_sides, off_rim, side_of
 from .frustum import (
@@ -61,17 +61,6 @@ _CONE_MARGIN = 1e-6
 """Sine of the largest angle between a contact normal and the edge's normal cone; if it is larger, a face is nearer."""
 
 
-class _Edge(NamedTuple):
-    """An edge in the world."""
-
-    row: Floats
-    """Its numbers (:mod:`bodies.contacts.features.edge_row`)."""
-    start: Vector3
-    """First end [m]."""
-    along: Vector3
-    """Unit vector along the edge."""
-
-
 class _Crossing(NamedTuple):
     """Crossing of an edge and a part of a frustum's core; vectors are in the world."""
 
@@ -89,13 +78,6 @@ class _Crossing(NamedTuple):
     """Sine of the angle between the normal and the normal cones of rim and edge; negative inside of both."""
     sine: float
     """Sine of the angle between both features."""
-
-
-@compiled
-def _in_world(frame: Floats, row: Floats) -> _Edge:
-    """Return an edge in the world."""
-    start, along = point_in_world(frame, vector_at(row, START)), vector_in_world(frame, vector_at(row, ALONG))
-    return _Edge(row, start, along)
 
 
 @compiled
@@ -140,28 +122,26 @@ def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[f
 
 
 @compiled
-def _off_cones(of_rim: Spot, up: float, b: Floats, edge: _Edge, n: Vector3) -> float:
+def _off_cones(of_rim: Spot, up: float, edge: Edge, n: Vector3) -> float:
     """Return the sine of the angle between a normal n and the normal cones of a rim and of an edge, the larger one.
 
     n leads from the rim, the upper one if ``up`` is 1, else -1, to the edge; the sine is negative inside of both cones.
     """
-    return max(off_rim(of_rim, up, n), sine_off_cone(b, edge.row, 0, -1.0, n))
+    return max(off_rim(of_rim, up, n), sine_off_cone(edge, -1.0, n))
 
 
 @compiled
-def _cross_rim(
-    frustum: Placed, rim: float, half: float, b: Floats, edge: _Edge, is_round: bool, size: float
-) -> _Crossing:
+def _cross_rim(frustum: Placed, rim: float, half: float, edge: Edge, is_round: bool, size: float) -> _Crossing:
     """Return the crossing of an edge and one half of a rim; ``is_round`` if one of the bodies is rounded.
 
     In the view along the edge, the rim is an ellipse and the edge is a point.  The nearest point of the ellipse is the
     foot of a normal to the ellipse through that point.  The contact normal is perpendicular to the edge and to the rim.
     The other arguments are those of :func:`write_across_rim`.
     """
-    (numbers, center, axis), d = frustum, edge.along
+    (numbers, center, axis), d = frustum, direction_of(edge)
     radius, height, up = rim_of(numbers, rim)
     middle = plus_scaled(center, height, axis)
-    start = minus(edge.start, middle)
+    start = minus(start_of(edge), middle)
     # unit vectors f: along the edge's projection on the plane of the rim; g: perpendicular to the edge, in this plane;
     # h: perpendicular to g and the edge. In the view along the edge, g and h are the axes of the rim's ellipse
     _, _, f = across(d, axis)
@@ -193,7 +173,7 @@ def _cross_rim(
         n = divided(n, crossing_sine)
     else:
         n = e
-    off_cone, off_reversed = _off_cones(spot, up, b, edge, n), _off_cones(spot, up, b, edge, opposite(n))
+    off_cone, off_reversed = _off_cones(spot, up, edge, n), _off_cones(spot, up, edge, opposite(n))
     if off_reversed <= off_cone and not are_cores_apart:
         # the sign for which the normal is nearer to the normal cones of rim and edge
         n, off_cone = opposite(n), off_reversed
@@ -213,16 +193,17 @@ def _cross_rim(
 
 
 @compiled
-def _past_bodies(b: Floats, out: Floats, frustum: Placed, surface: Floats, size: float) -> float:
+def _past_bodies(out: Floats, frustum: Placed, solid: Solid, size: float) -> float:
     """Return by how far both contact points of a crossing are outside of the other body [m]; positive: no overlap.
 
-    The frustum belongs to the first body, the surface to the second one; ``out`` is the geometry block.  If flush
-    faces are pressed into each other, the points lie on the surface of the other body: the margin is that of round-off,
-    ``CLOSED``, and of the angle ``FLUSH`` of such faces.
+    ``solid`` is the second body, and ``out`` the geometry block.  If flush faces are pressed into each other, the
+    points lie on the surface of the other body: the margin is that of round-off, ``CLOSED``, and of the angle ``FLUSH``
+    of such faces.
     """
-    margin, point = CLOSED * size - FLUSH * out[GAP], point_in_body(b, vector_at(out, POINT_A))
+    surface, margin = solid.surface, CLOSED * size - FLUSH * out[GAP]
+    point = point_in_body(solid.frame, vector_at(out, POINT_A))
     if surface[N_TRIANGLES] == 0.0:
-        _, nearest = past_edge(surface, edge_at(surface, 0), point)
+        _, nearest = past_edge(edge_at(surface, 0), point)
         outside = norm(minus(point, nearest))
     else:
         outside = signed_distance(surface, point)
@@ -233,9 +214,7 @@ def _past_bodies(b: Floats, out: Floats, frustum: Placed, surface: Floats, size:
 
 
 @compiled
-def _write_crossing(
-    a: Floats, b: Floats, out: Floats, edge: _Edge, surface: Floats, crossing: _Crossing, size: float
-) -> None:
+def _write_crossing(a: Floats, out: Floats, edge: Edge, surface: Floats, crossing: _Crossing, size: float) -> None:
     """Write the geometry block of the crossing of an edge with a part of a frustum.
 
     The point of crossing moves up to 1 / sine times as fast as the bodies, with the sine of the angle between both
@@ -251,9 +230,9 @@ def _write_crossing(
       there, or a face is less deep (:func:`bodies.contacts.frustum.over_faces.past_faces`).
     """
     spot, normal, is_convex = crossing.spot, crossing.normal, surface[IS_CONVEX] == 1.0
-    numbers = spot.frustum.numbers
+    numbers, b = spot.frustum.numbers, edge.frame
     radius, sweep = surface[SWEEP], numbers[FRUSTUM_SWEEP]
-    off_cone = sine_off_cone(b, edge.row, 0, -1.0, normal)
+    off_cone = sine_off_cone(edge, -1.0, normal)
     past = past_border(crossing.past_ends, max(crossing.off_cone, off_cone), size)
     # features that are parallel have no definite point of crossing
     past = max(past, size * (PARALLEL - crossing.sine))
@@ -261,14 +240,14 @@ def _write_crossing(
     point = plus_scaled(crossing.point, sweep, normal)
     write_contact(a, out, gap, past, 0.0, normal, point, False)
     write_spot(out, SIDE_A, spot, normal)
-    write_principal(out, SIDE_B, edge.along, 0.0, 1.0, 1.0, radius)
+    write_principal(out, SIDE_B, direction_of(edge), 0.0, 1.0, 1.0, radius)
     if past > 0.0:
         return
     if gap + sweep + radius >= -CLOSED * size:
         past = size * (off_cone - _CONE_MARGIN)
     else:
         past = max(
-            _past_bodies(b, out, spot.frustum, surface, size),
+            _past_bodies(out, spot.frustum, Solid(b, surface), size),
             past_faces(surface, frustum_in_surface(a, b, numbers), -gap, point_in_body(b, point)),
         )
     if past > 0.0:
@@ -277,30 +256,21 @@ def _write_crossing(
 
 
 @compiled
-def write_across_side(
-    a: Floats, b: Floats, out: Floats, frustum: Floats, row: Floats, surface: Floats, size: float
-) -> None:
-    """Write the geometry block of an edge of a surface, by its row, that crosses the side of a frustum."""
-    one, edge = placed(a, frustum), _in_world(b, row)
-    found = cross_sides(side_of(one), Side(edge.start, edge.along, 0.0, row[LENGTH], 1.0, 0.0), PARALLEL, size)
+def write_across_side(a: Floats, out: Floats, frustum: Floats, edge: Edge, surface: Floats, size: float) -> None:
+    """Write the geometry block of an edge of a ``surface`` that crosses the side of a frustum."""
+    one = placed(a, frustum)
+    line = Side(start_of(edge), direction_of(edge), 0.0, edge.row[LENGTH], 1.0, 0.0)
+    found = cross_sides(side_of(one), line, PARALLEL, size)
     spot = Spot(one, FLANK, minus(found.point, one.center), max(frustum[LOW_RADIUS] - frustum[SIN] * found.up, 0.0))
     crossing = _Crossing(spot, found.point, found.normal, found.gap, found.past_ends, -1.0, found.sine)
-    _write_crossing(a, b, out, edge, surface, crossing, size)
+    _write_crossing(a, out, edge, surface, crossing, size)
 
 
 @compiled
 def write_across_rim(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    frustum: Floats,
-    rim: float,
-    half: float,
-    row: Floats,
-    surface: Floats,
-    size: float,
+    a: Floats, out: Floats, frustum: Floats, rim: float, half: float, edge: Edge, surface: Floats, size: float
 ) -> None:
-    """Write the geometry block of an edge of a surface, by its row, that crosses one half of a rim.
+    """Write the geometry block of an edge of a ``surface`` that crosses one half of a rim.
 
     An edge that lies across a cap crosses its rim twice, so that there are two contacts, one on either half.  The rims
     are set back by the feet (:func:`bodies.contacts.frustum.frustum.set_back`); ``rim`` is 1 for the lower rim, 3 for
@@ -308,6 +278,6 @@ def write_across_rim(
     opposite half circle.  For an edge at less than 60 degrees to the axis, both are the half circle nearer to the edge,
     and one of them has the contact.
     """
-    edge, is_round = _in_world(b, row), surface[SWEEP] + frustum[FRUSTUM_SWEEP] > 0.0
-    crossing = _cross_rim(placed(a, frustum), rim, half, b, edge, is_round, size)
-    _write_crossing(a, b, out, edge, surface, crossing, size)
+    is_round = surface[SWEEP] + frustum[FRUSTUM_SWEEP] > 0.0
+    crossing = _cross_rim(placed(a, frustum), rim, half, edge, is_round, size)
+    _write_crossing(a, out, edge, surface, crossing, size)

@@ -13,8 +13,9 @@ from nonsmooth.types import Floats
 from ...shapes.frustum import SWEEP, Frustum, without_feet
 from ...shapes.sphere import Sphere
 from ...vectors import Vector3, vector_at, write_vector
-from ..features.ends import ended_gap, past_star
+from ..features.ends import ended_gap, past_vertex
 from ..features.frames import point_in_world
+from ..features.vertex import Vertex
 from ..features.writing import place_sphere, write_round
 from .frustum import (
     HIGH_CAP,
@@ -59,20 +60,17 @@ def write_frustum_vertex(
     out: Floats,
     first: Floats,
     radius: float,
-    place: Vector3,
-    n_star: float,
-    star: Floats,
+    vertex: Vertex,
     size: float,
 ) -> None:
     """Write the geometry block of a vertex, with a radius [m], and a frustum's nearest cap, rim, side or apex.
 
-    ``place`` is the vertex in the frame of the second body [m].  ``star`` holds ``n_star`` unit vectors along its
-    edges.  ``size`` is the size of the bodies [m].
+    The vertex is one of the second body.  ``size`` is the size of the bodies [m].
     """
-    point, distance, part = write_frustum_ball(a, b, out, first, radius, place)
+    point, distance, part = write_frustum_ball(a, b, out, first, radius, vertex.place)
     # over a cap the contact does not end at the vertex: an edge over the cap touches with both ends, also if it tilts
     is_flat = part in (LOW_CAP, HIGH_CAP)
-    past = past_star(b, star, 0.0 if is_flat else n_star, distance, vector_at(out, NORMAL), size)
+    past = past_vertex(b, vertex, 0.0 if is_flat else distance, vector_at(out, NORMAL), size)
     gap, out[PAST_END] = ended_gap(out[GAP], past, size)
     place_sphere(a, out, point, gap + radius, radius)
 
