@@ -14,11 +14,10 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
 
 from ...vectors import Vector3, cross, dot, minus, norm, plus_scaled, scaled, vector_at
-from .edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
-from .frames import point_in_world, vector_in_world
+from .edge_row import INTO_FIRST, INTO_SECOND, LENGTH, Edge, direction_of, start_of
+from .frames import vector_in_world
 
 
 @compiled
@@ -52,18 +51,17 @@ def _from_arc(n: Vector3, along: Vector3, inward: tuple[Vector3, Vector3], ends:
 
 
 @compiled
-def _of_row(frame: Floats, edges: Floats, at: int, sign: float) -> Vector3:
-    """Return ``sign`` times a vector of a row of edges, in the world."""
-    return vector_in_world(frame, scaled(sign, vector_at(edges, at)))
+def _inward(edge: Edge, sign: float) -> tuple[Vector3, Vector3]:
+    """Return ``sign`` times the unit vectors from an edge into its two faces, in world axes."""
+    first, second = scaled(sign, vector_at(edge.row, INTO_FIRST)), scaled(sign, vector_at(edge.row, INTO_SECOND))
+    return vector_in_world(edge.frame, first), vector_in_world(edge.frame, second)
 
 
 @compiled
-def _between_arcs(a: Floats, b: Floats, edges_a: Floats, at_a: int, edges_b: Floats, at_b: int) -> float:
+def _between_arcs(a: Edge, b: Edge) -> float:
     """Return a lower bound of the angle between the normals of one edge and the opposite normals of the other [rad]."""
-    e, f = _of_row(a, edges_a, at_a + ALONG, 1.0), _of_row(b, edges_b, at_b + ALONG, 1.0)
-    into_a = _of_row(a, edges_a, at_a + INTO_FIRST, 1.0), _of_row(a, edges_a, at_a + INTO_SECOND, 1.0)
-    # the vectors into the faces of the second body, reversed, for its opposite normals
-    into_b = _of_row(b, edges_b, at_b + INTO_FIRST, -1.0), _of_row(b, edges_b, at_b + INTO_SECOND, -1.0)
+    # the vectors into the faces of the second body are reversed, for its opposite normals
+    e, f, into_a, into_b = direction_of(a), direction_of(b), _inward(a, 1.0), _inward(b, -1.0)
     ends_a = cross(e, into_a[0]), cross(into_a[1], e)
     ends_b = cross(f, into_b[0]), cross(into_b[1], f)
     for sign in (1.0, -1.0):
@@ -79,13 +77,11 @@ def _between_arcs(a: Floats, b: Floats, edges_a: Floats, at_a: int, edges_b: Flo
 
 
 @compiled
-def edges_bound(a: Floats, b: Floats, edges_a: Floats, at_a: int, edges_b: Floats, at_b: int) -> float:
-    """Return by how much the bodies must move before two edges touch [m]; their rows begin at ``at_a`` and ``at_b``.
+def edges_bound(a: Edge, b: Edge) -> float:
+    """Return by how much the bodies must move before two edges touch [m].
 
-    Of an edge without faces, the segment of a capsule, only the distance counts: its vectors into the faces are 0.
+    Of an edge without faces, the segment of a capsule, only the distance counts.
     """
-    w = minus(point_in_world(b, vector_at(edges_b, at_b)), point_in_world(a, vector_at(edges_a, at_a)))
-    e, f = _of_row(a, edges_a, at_a + ALONG, 1.0), _of_row(b, edges_b, at_b + ALONG, 1.0)
-    p, q = edges_a[at_a + LENGTH], edges_b[at_b + LENGTH]
-    distance = math.sqrt(squared_distance_of_segments(w, e, p, f, q))
-    return float(max(distance, 0.5 * min(p, q) * _between_arcs(a, b, edges_a, at_a, edges_b, at_b)))
+    w, p, q = minus(start_of(b), start_of(a)), a.row[LENGTH], b.row[LENGTH]
+    distance = math.sqrt(squared_distance_of_segments(w, direction_of(a), p, direction_of(b), q))
+    return float(max(distance, 0.5 * min(p, q) * _between_arcs(a, b)))

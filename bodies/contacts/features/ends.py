@@ -7,8 +7,9 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, dot, vector_at
+from ...vectors import Vector3, opposite
 from .frames import vector_in_body
+from .vertex import Vertex, steepest
 
 REACH = 1e-9
 """Length by which features are extended at their ends, relative to the size of the bodies.
@@ -38,17 +39,17 @@ The ball about the corner is a part of its body, so that its gap is always an up
 
 
 @compiled
-def past_star(frame: Floats, star: Floats, n_star: float, distance: float, n: Vector3, size: float) -> float:
-    """Return the distance of a contact past a corner [m], less the tolerance ``2 END size``; negative if it is valid.
+def past_vertex(frame: Floats, vertex: Vertex, distance: float, n: Vector3, size: float) -> float:
+    """Return the distance of a contact past a vertex [m], less the tolerance ``2 END size``; negative if it is valid.
 
-    The nearest point of the other body's core is at ``distance`` [m] from the corner, against the normal n.
-    The distance past the corner is the largest coordinate of this point along an edge of the corner, measured from
-    the corner.  If it is positive, this edge is nearer to the point than the corner.  For a corner inside of the other
-    core the result is negative.
+    The nearest point of the other body's core is at ``distance`` [m] from the vertex, against the normal n [world
+    axes].  The distance past the vertex is the largest coordinate of this point along an edge of the vertex, measured
+    from the vertex.  If it is positive, this edge is nearer to the point than the vertex.  For a vertex inside of the
+    other core the result is negative.
     """
-    n, past = vector_in_body(frame, n), -size
-    for i in range(int(n_star) if distance > 0.0 else 0):
-        past = max(past, -distance * dot(n, vector_at(star, 3 * i)))
+    past = -size
+    if distance > 0.0:
+        past = max(past, distance * steepest(vertex, opposite(vector_in_body(frame, n))))
     return past - 2.0 * END * size
 
 

@@ -51,6 +51,18 @@ def point_in_body(frame: Floats, point: Vector3) -> Vector3:
     return vector_in_body(frame, minus(point, vector_at(frame, POSITION)))
 
 
+@compiled
+def point_seen_from(frame: Floats, other: Floats, point: Vector3) -> Vector3:
+    """Return a point of the body ``other`` in the coordinates of the body ``frame`` [m]."""
+    return point_in_body(frame, point_in_world(other, point))
+
+
+@compiled
+def vector_seen_from(frame: Floats, other: Floats, vector: Vector3) -> Vector3:
+    """Return the components in the axes of the body ``frame`` of a vector given in those of the body ``other``."""
+    return vector_in_body(frame, vector_in_world(other, vector))
+
+
 turned_by = compiled(turned)
 """``turned_by(w, x, y, z, a, b, c)``: the vector (a, b, c) turned by a unit quaternion."""
 

@@ -1,4 +1,4 @@
-"""Caps, rims, side, apex and feet of a frustum: the part nearest to a point, its curvature, and frustums on feet.
+"""Caps, rims, side, apex and feet of a frustum: where a point lies, where contacts end, and their geometry blocks.
 
 A frustum is the tuple of :func:`bodies.shapes.frustum.frustum_numbers`.  Its parts are numbered along the axis: lower
 cap, lower rim, side, upper rim, upper cap.  The functions here use its core: callers add the rounding radius.
@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from nonsmooth.compiled import compiled
+from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats, ReadFloats
 
 from ...shapes.frustum import (
@@ -31,10 +32,11 @@ from ...shapes.frustum import (
     Point,
     frustum_numbers,
 )
-from ...vectors import Vector3, cross, dot, minus, norm, opposite, plus, plus_scaled, scaled, vector_at
-from ..features.edge_crossing import PARALLEL
-from ..features.frames import across, point_in_world, vector_in_world
-from ..features.writing import write_flat, write_principal, write_round
+from ...vectors import Vector3, cross, dot, minus, norm, opposite, plus, plus_scaled, scaled, vector_at, write_vector
+from ..features.edge_crossing import CONE_MARGIN, PARALLEL
+from ..features.ends import END, REACH, gap_past_end
+from ..features.frames import across, point_in_world, vector_in_world, write_tangent
+from ..features.writing import write_flat, write_principal, write_round, write_sweep
 from ..surface.surface_tables import Numbers
 
 LOW_CAP, LOW_RIM, FLANK, HIGH_RIM, HIGH_CAP = 0, 1, 2, 3, 4
@@ -82,7 +84,7 @@ def on_axis_in_world(frame: Floats, frustum: Floats, height: float) -> Vector3:
 
 
 @compiled
-def rim_of(frustum: Floats, part: float) -> tuple[float, float, float]:
+def rim_of(frustum: ReadFloats, part: float) -> tuple[float, float, float]:
     """Return radius [m], height over the centre [m] and side, 1 or -1 for an upper or a lower one, of a rim or cap."""
     if part > FLANK:
         return frustum[HIGH_RADIUS], frustum[HIGH], 1.0
@@ -104,19 +106,36 @@ def placed(frame: Floats, frustum: Floats) -> Placed:
 
 
 @compiled
+def from_axis(frustum: Placed, point: Vector3) -> tuple[float, float, Vector3]:
+    """Return a point's coordinate along the axis from the centre, its distance from the axis [m], and its direction.
+
+    The direction is the unit vector from the axis towards the point, across the axis.
+    """
+    return across(minus(point, frustum.center), frustum.axis)
+
+
+@compiled
+def along_side(frustum: ReadFloats, along: float, away: float) -> tuple[float, float]:
+    """Return the height of a point over the side, continued past its rims, and its coordinate up the side [m].
+
+    The height is positive outside; the coordinate is 0 at the lower rim.  ``along`` is the coordinate of the point
+    along the axis from the centre, ``away`` its distance from the axis [m].
+    """
+    dr, dz = away - frustum[LOW_RADIUS], along - frustum[LOW]
+    return frustum[COS] * dr + frustum[SIN] * dz, frustum[COS] * dz - frustum[SIN] * dr
+
+
+@compiled
 def nearest_part(frustum: ReadFloats, along: float, away: float) -> tuple[float, float, float, int]:
     """Return the part of a frustum nearest to a point: signed distance [m], outward normal there, and part.
 
-    The distance is negative inside.  The normal is given by two components: radial, away from the axis, and axial.
-    ``along`` is the coordinate of the point along the axis from the centre, ``away`` its distance from the axis [m].
-    The plane through the axis and the point shows a trapezium, whose sides and corners are the parts.
+    The distance is negative inside.  The normal is given by two components: radial, away from the axis, and axial.  The
+    point is given as for :func:`along_side`.  The plane through the axis and the point shows a trapezium, whose sides
+    and corners are the parts.
     """
-    # heights of the point over the planes of both caps and over the side, continued past its rims
+    # heights of the point over the planes of both caps
     over_low, over_high = frustum[LOW] - along, along - frustum[HIGH]
-    dr, dz = away - frustum[LOW_RADIUS], along - frustum[LOW]
-    over_side = frustum[COS] * dr + frustum[SIN] * dz
-    # coordinate of the point along the side, from the lower rim upwards
-    up_side = frustum[COS] * dz - frustum[SIN] * dr
+    over_side, up_side = along_side(frustum, along, away)
     if over_high > 0.0 and away < frustum[HIGH_RADIUS]:
         return over_high, 0.0, 1.0, HIGH_CAP
     if over_low > 0.0 and away < frustum[LOW_RADIUS]:
@@ -132,10 +151,17 @@ def nearest_part(frustum: ReadFloats, along: float, away: float) -> tuple[float,
         return over_side, frustum[COS], frustum[SIN], FLANK
     # a disc has one rim, the lower one
     part = LOW_RIM if up_side <= 0.0 or frustum[SIDE] == 0.0 else HIGH_RIM
-    if part == HIGH_RIM:
-        dr, dz = away - frustum[HIGH_RADIUS], over_high
+    radius, height, _ = rim_of(frustum, part)
+    dr, dz = away - radius, along - height
     distance = math.sqrt(dr * dr + dz * dz)
     return distance, dr / distance, dz / distance, part
+
+
+@compiled
+def from_core(frustum: Placed, point: Vector3) -> float:
+    """Return the signed distance of a point from the frustum's core [m]; negative inside."""
+    along, away, _ = from_axis(frustum, point)
+    return float(nearest_part(frustum.numbers, along, away)[0])
 
 
 @compiled
@@ -152,11 +178,8 @@ def over_part(frustum: Floats, part: int, along: float, away: float) -> tuple[fl
         return -math.inf, math.inf, 0.0, 1.0
     if part == HIGH_CAP:
         return along - frustum[HIGH], away - frustum[HIGH_RADIUS], 0.0, 1.0
-    cosine, sine = frustum[COS], frustum[SIN]
-    dr, dz = away - frustum[LOW_RADIUS], along - frustum[LOW]
-    # coordinate of the point along the side, from the lower rim upwards
-    up = cosine * dz - sine * dr
-    return cosine * dr + sine * dz, max(-up, up - frustum[SIDE]), cosine, sine
+    height, up = along_side(frustum, along, away)
+    return height, max(-up, up - frustum[SIDE]), frustum[COS], frustum[SIN]
 
 
 @compiled
@@ -224,24 +247,128 @@ def separation_by_second(first: Placed, second: Placed) -> float:
 
 
 @compiled
-def write_part(out: Floats, side: int, part: int, axis: Vector3, outward: Vector3, radial: float, away: float) -> None:
-    """Write the curvature matrices of a part of a frustum at the contact point from index ``side`` of a geometry block.
+def past_border(past_ends: float, off_cone: float, size: float) -> float:
+    """Return the distance of a contact past the boundary of its features [m]; negative if it is valid.
 
-    They are explained in :func:`bodies.contacts.features.writing.write_principal`.  The caller has already written the
-    normal and the first tangent to ``out``.  ``outward`` is the unit vector from the axis towards the point, across the
-    axis.  ``radial`` is the component of the outward normal along it, ``away`` the distance of the point from the axis
-    [m].
+    ``past_ends`` is the distance past the ends of both features [m].  ``off_cone`` is the sine of the angle between the
+    contact normal and the normal cones of the features, negative inside of them.  Both have a margin, so that neither
+    round-off nor a small rotation ends the contact.  ``size`` is the size of the bodies [m].
     """
-    # the apex, a rim of radius 0, has the curvature of a point
+    return max(past_ends - REACH * size, size * (off_cone - CONE_MARGIN))
+
+
+@compiled
+def past_depth(first: Placed, second: Placed, gap: float, size: float) -> float:
+    """Return a length [m] that is positive if two cores overlap by less than -``gap`` along another direction.
+
+    The contact is then not valid, because another one separates the bodies by a shorter translation.  The directions
+    are those of :func:`bodies.contacts.frustum.frustum.separation_by_second` for either frustum.  ``gap`` is the gap of
+    the cores [m].  If it is not negative, up to round-off, the result is negative.
+    """
+    if gap >= -REACH * size:
+        return -size
+    return float(max(separation_by_second(first, second), separation_by_second(second, first)) - gap - REACH * size)
+
+
+@compiled
+def past_apex(frustum: Floats, distance: float, axial: float, size: float) -> float:
+    """Return the distance of the other body's nearest point past the apex [m], less the tolerance ``2 END size``.
+
+    It is the coordinate of this point along a straight line on the cone's side, from the apex downwards.  If the result
+    is positive, the side is nearer to the point than the apex.  The point lies at ``distance`` [m] from the apex;
+    ``axial`` is the component, along the cone's axis, of the unit vector from the apex to the point.  ``size`` is the
+    size of the bodies [m].
+    """
+    radial = math.sqrt(max(1.0 - axial * axial, 0.0))
+    return float(max(distance * (frustum[SIN] * radial - frustum[COS] * axial), -size) - 2.0 * END * size)
+
+
+@compiled
+def off_side(frustum: Floats, up: float, radial: float, axial: float) -> float:
+    """Return the sine of the angle from the side's normal to a contact normal at a rim; 1 for a disc without a side.
+
+    The arguments are those of :func:`off_cone_of_rim`.  The sine is positive towards the normal of the cap.
+    """
+    return up * (frustum[COS] * axial - frustum[SIN] * radial) if frustum[SIDE] > 0.0 else 1.0
+
+
+@compiled
+def off_cone_of_rim(frustum: Floats, up: float, radial: float, axial: float) -> float:
+    """Return the sine of the angle between a contact normal and the normal cone of a rim; negative inside this cone.
+
+    The contact normal points out of the frustum; ``radial`` and ``axial`` are its components away from the axis and
+    along it.  The cone lies between the normals of side and cap, or of both caps of a disc.  ``up`` is 1 for the upper
+    rim and -1 for the lower one.
+    """
+    return float(max(-radial, -off_side(frustum, up, radial, axial)))
+
+
+class Spot(NamedTuple):
+    """A contact point on the core of a frustum."""
+
+    frustum: Placed
+    """The frustum in the world."""
+    part: int
+    """Number of the part, such as ``FLANK``; an apex is a rim of radius 0."""
+    offset: Vector3
+    """Vector of any length from a point of the axis towards the contact point, in the world."""
+    away: float
+    """Distance of the point from the axis [m]."""
+
+
+@compiled
+def write_contact(
+    a: Floats, out: Floats, gap: float, past: float, feature: float, normal: Vector3, point: Vector3, of_second: bool
+) -> None:
+    """Write the geometry block of a contact, except the curvature matrices.
+
+    ``a`` is the frame block of the first body; ``past`` is the distance past the end of the features [m], ``feature``
+    the number of the pair of features.  The contact point in the world is that of the first body, or ``of_second`` [m].
+    """
+    out[GAP], out[FEATURE], out[PAST_END] = gap, feature, past
+    write_vector(out, NORMAL, normal)
+    write_vector(out, POINT_B if of_second else POINT_A, point)
+    write_vector(out, POINT_A if of_second else POINT_B, plus_scaled(point, -gap if of_second else gap, normal))
+    write_tangent(a, out)
+
+
+@compiled
+def write_spot(out: Floats, side: int, spot: Spot, normal: Vector3) -> None:
+    """Write the curvature matrices of a rounded frustum at a contact point, with its outward unit ``normal`` there.
+
+    ``side`` is ``SIDE_A`` or ``SIDE_B``.  ``out`` must already hold the contact's normal and first tangent; the
+    matrices are explained in :func:`bodies.contacts.features.writing.write_principal`.
+    """
+    (numbers, _, axis), part, offset, away = spot
     if part == LOW_CAP or part == HIGH_CAP:
         write_flat(out, side)
     elif part != FLANK and away == 0.0:
         write_round(out, side, 0.0)
     else:
-        # if the point moves around the axis by an angle, the normal turns by ``radial`` times this angle. A normal
-        # along the axis does not turn; the least value keeps the matrices regular
+        # if the point moves round the axis by an angle, the normal turns by this angle times its component along
+        # ``outward``. A normal along the axis does not turn; the least value keeps the matrices regular
+        _, _, outward = across(offset, axis)
+        radial = dot(normal, outward)
         flank, slide = 1.0 if part == FLANK else 0.0, radial if abs(radial) > FLATTEST else FLATTEST
         write_principal(out, side, cross(axis, outward), slide, away, 1.0 - flank, flank)
+    write_sweep(out, side, numbers[SWEEP])
+
+
+@compiled
+def write_pair(
+    a: Floats, out: Floats, swap: float, gap: float, past: float, normal: Vector3, p: Vector3, own: Spot, other: Spot
+) -> None:
+    """Write the geometry block of two frustums, with the contact points ``own`` and ``other``; the feature is 0.
+
+    ``gap`` is the distance of the cores [m] along the unit vector ``normal``, from the point p on the core of ``own``
+    to the core of ``other``; vectors are in the world.  If ``swap`` is 1, ``own`` belongs to the second body, so that
+    the contact normal is opposite to ``normal``.  ``past`` is the distance past the boundary of the features [m].
+    """
+    sweep, is_swapped = own.frustum.numbers[SWEEP], swap == 1.0
+    gap = gap_past_end(gap - sweep - other.frustum.numbers[SWEEP], past, True)
+    write_contact(a, out, gap, past, 0.0, scaled(1.0 - 2.0 * swap, normal), plus_scaled(p, sweep, normal), is_swapped)
+    write_spot(out, SIDE_B if is_swapped else SIDE_A, own, normal)
+    write_spot(out, SIDE_A if is_swapped else SIDE_B, other, opposite(normal))
 
 
 _N_EDGES = 12

@@ -13,10 +13,11 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.cylinder import Cylinder
-from ...shapes.frustum import COS, FEET, HIGH, HIGH_RADIUS, LOW, LOW_RADIUS, SIDE, SIN, SWEEP, Frustum, without_feet
+from ...shapes.frustum import FEET, HIGH, HIGH_RADIUS, LOW, LOW_RADIUS, SIDE, SWEEP, Frustum, without_feet
 from ...vectors import Vector3, dot, minus, norm, plus_scaled, scaled, vector_at
 from ..features.ends import CLOSED, END, NEAR, REACH
 from ..features.frames import across, point_in_world
+from .crossings import evaluate_rim_over_side, evaluate_rims, evaluate_sides
 from .frustum import (
     FLATTEST,
     HIGH_CAP,
@@ -25,9 +26,15 @@ from .frustum import (
     LOW_RIM,
     RIM_NAMES,
     Placed,
+    Spot,
+    along_side,
+    from_axis,
+    from_core,
     nearest_part,
     part_names,
     part_number,
+    past_apex,
+    past_depth,
     past_of_rim,
     placed,
     rim_of,
@@ -36,10 +43,8 @@ from .frustum import (
     separation_along,
     separation_by_second,
     set_back,
+    write_pair,
 )
-from .frustum_writing import Spot, past_apex, past_depth, write_pair
-from .rim_rim import evaluate_rims
-from .sides import evaluate_rim_over_side, evaluate_sides
 
 
 @compiled
@@ -73,11 +78,10 @@ def _past_disc(first: Placed, second: Placed, up: float, gap: float, p: Vector3,
     # first condition: distance from the disc's axis at which the line from p to the middle crosses the face, and
     # distance of the disc's rim from the line, negative if the line crosses the disc. The margin keeps a disc whose rim
     # only touches the frustum
-    _, away, _ = across(minus(plus_scaled(p, gap / (gap - height), to_middle), second.center), second.axis)
+    _, away, _ = from_axis(second, plus_scaled(p, gap / (gap - height), to_middle))
     past_rim = REACH * size - (second.numbers[LOW_RADIUS] - away) * (height - gap) / norm(to_middle)
     # second condition: distance of the point of the face above p from the frustum
-    along, away, _ = across(minus(plus_scaled(p, -up * gap, second.axis), first.center), first.axis)
-    outside = nearest_part(numbers, along, away)[0] - REACH * size
+    outside = from_core(first, plus_scaled(p, -up * gap, second.axis)) - REACH * size
     return float(min(past_rim, max(outside, past_depth(first, second, gap, size))))
 
 
@@ -113,7 +117,7 @@ def evaluate_rim_over_cap(
         _, _, outward = across(minus(two.center, middle), one.axis)
         margin, sine = -4.0 * CLOSED, 1.0
     p = plus_scaled(middle, radius, outward)
-    along, away, from_axis = across(minus(p, two.center), two.axis)
+    along, away, to_p = from_axis(two, p)
     gap = up * (along - height)
     past = away - cap_radius - margin * size
     if gap > first[SWEEP] + second[SWEEP]:
@@ -127,7 +131,8 @@ def evaluate_rim_over_cap(
         if gap < 0.0:
             # another part of the body with the cap may separate the bodies by a shorter translation
             past = max(past, separation_by_second(one, two) - separation_along(one, two, n) - REACH * size)
-    write_pair(a, out, swap, one, two, gap, past, n, p, Spot(LOW_RIM, outward, radius), Spot(int(cap), from_axis, away))
+    of_rim, of_cap = Spot(one, LOW_RIM, outward, radius), Spot(two, int(cap), to_p, away)
+    write_pair(a, out, swap, gap, past, n, p, of_rim, of_cap)
 
 
 def evaluate_apex_over_frustum(
@@ -141,7 +146,7 @@ def evaluate_apex_over_frustum(
     own, other = (b, a) if swap == 1.0 else (a, b)
     one, two = placed(own, first), placed(other, second)
     p = plus_scaled(one.center, first[HIGH], one.axis)
-    along, away, outward = across(minus(p, two.center), two.axis)
+    along, away, outward = from_axis(two, p)
     distance, radial, axial, part = nearest_part(second, along, away)
     n = plus_scaled(scaled(-radial, outward), -axial, two.axis)
     past = past_apex(first, distance, dot(n, one.axis), size)
@@ -151,15 +156,14 @@ def evaluate_apex_over_frustum(
     if swap == 1.0 and second[HIGH_RADIUS] == 0.0:
         # two apices have one contact, that of the first body's apex: this contact ends before the other apex. ``up`` is
         # the coordinate of the point along the other side, from the lower rim
-        up = second[COS] * (along - second[LOW]) - second[SIN] * (away - second[LOW_RADIUS])
+        _, up = along_side(second, along, away)
         past = max(past, END * size - (second[SIDE] - up))
     # distance of the other contact point from its axis: exact on a rim
     point_away = max(away - distance * radial, 0.0)
     if part == LOW_RIM or part == HIGH_RIM:
         point_away, _, _ = rim_of(second, float(part))
-    write_pair(
-        a, out, swap, one, two, distance, past, n, p, Spot(HIGH_RIM, outward, 0.0), Spot(part, outward, point_away)
-    )
+    apex, nearest = Spot(one, HIGH_RIM, outward, 0.0), Spot(two, part, outward, point_away)
+    write_pair(a, out, swap, distance, past, n, p, apex, nearest)
     out[FEATURE] = part_number(second, part)
 
 

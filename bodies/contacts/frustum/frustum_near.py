@@ -14,11 +14,20 @@ from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus
 from ..features.edge_crossing import CONE_MARGIN
 from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
 from ..features.ends import CLOSED
-from ..features.frames import across
-from ..surface.surface_search import face_at, in_triangle, steepest
-from ..surface.surface_tables import CORNER, CORNERS, FACE_NUMBER, SWEEP
-from .frustum import FLANK, HIGH_CAP, LOW_CAP, Placed, nearest_part, normal_of_part, over_part
-from .frustum_writing import off_cone_of_rim
+from ..features.vertex import steepest
+from ..surface.surface_search import distance_from_triangle
+from ..surface.surface_tables import FACE_NUMBER, SWEEP, corner_at, normal_of
+from .frustum import (
+    FLANK,
+    HIGH_CAP,
+    LOW_CAP,
+    Placed,
+    from_axis,
+    nearest_part,
+    normal_of_part,
+    off_cone_of_rim,
+    over_part,
+)
 from .over_faces import lowest_on_rim
 
 _HALVINGS = 40
@@ -53,16 +62,9 @@ class _Segment(NamedTuple):
 
 
 @compiled
-def from_core(frustum: Placed, point: Vector3) -> float:
-    """Return the signed distance of a point from the frustum's core [m]; negative inside."""
-    along, away, _ = across(minus(point, frustum.center), frustum.axis)
-    return float(nearest_part(frustum.numbers, along, away)[0])
-
-
-@compiled
 def _from_rim(frustum: Placed, upper: int, point: Vector3) -> float:
     """Return the distance of a point from a rim of the core [m]; ``upper`` is 1 for the upper rim, 0 for the lower."""
-    along, away, _ = across(minus(point, frustum.center), frustum.axis)
+    along, away, _ = from_axis(frustum, point)
     return math.hypot(along - frustum.numbers[LOW + upper], away - frustum.numbers[LOW_RADIUS + upper])
 
 
@@ -92,25 +94,24 @@ def _lowest(frustum: Placed, upper: int, n: Vector3) -> tuple[Vector3, float, fl
 
 
 @compiled
-def rim_is_near(search: Search, row: int, upper: int) -> bool:
+def rim_is_near(search: Search, row: Floats, upper: int) -> bool:
     """Return whether a rim may touch a triangle, at its point that is lowest over it, before the next search.
 
-    The row of the triangle begins at index ``row`` of the surface; ``upper`` is 1 for the upper rim, 0 for the lower.
+    ``row`` is the row of the triangle; ``upper`` is 1 for the upper rim, 0 for the lower.
     """
     surface, frustum, reach, turn, _ = search
-    n = opposite(vector_at(surface, face_at(surface, int(surface[row + FACE_NUMBER]))))
+    n = opposite(normal_of(surface, int(row[FACE_NUMBER])))
     lowest, radial, off_cone = _lowest(frustum, upper, n)
     if off_cone > CONE_MARGIN + turn:
         return False
     # a cheap test first: the whole rim and a ball about the triangle
-    p, q, r = vector_at(surface, row), vector_at(surface, row + 3), vector_at(surface, row + 6)
+    p, q, r = vector_at(row, 0), vector_at(row, 3), vector_at(row, 6)
     middle = divided(plus(plus(p, q), r), 3.0)
     radius = max(norm(minus(p, middle)), norm(minus(q, middle)), norm(minus(r, middle)))
     if _from_rim(frustum, upper, middle) > reach + radius:
         return False
-    x, y, z, _ = in_triangle(surface, row, lowest)
-    apart, most = minus(lowest, (x, y, z)), reach + frustum.numbers[LOW_RADIUS + upper] * _swing(radial, turn)
-    return bool(dot(apart, apart) <= most * most)
+    most = reach + frustum.numbers[LOW_RADIUS + upper] * _swing(radial, turn)
+    return distance_from_triangle(row, lowest) <= most
 
 
 @compiled
@@ -123,7 +124,7 @@ def _edge_comes_near(frustum: Placed, edge: _Segment, reach: float) -> bool:
     low, high = 0.0, edge.length
     for _ in range(_HALVINGS):
         s, half = 0.5 * (low + high), 0.5 * (high - low)
-        along, away, outward = across(minus(plus_scaled(edge.start, s, edge.along), frustum.center), frustum.axis)
+        along, away, outward = from_axis(frustum, plus_scaled(edge.start, s, edge.along))
         distance, radial, axial, _ = nearest_part(frustum.numbers, along, away)
         if distance <= reach:
             return True
@@ -138,15 +139,15 @@ def _edge_comes_near(frustum: Placed, edge: _Segment, reach: float) -> bool:
 
 
 @compiled
-def _edge_normal(surface: Floats, row: int) -> tuple[Vector3, float]:
+def _edge_normal(edge: Floats) -> tuple[Vector3, float]:
     """Return the inward unit vector opposite to the mean normal of an edge's faces, and half of their angle [rad].
 
-    The row of the edge begins at index ``row``.  If the outward normals of both faces are nearly opposite, they have no
+    ``edge`` is the row of the edge.  If the outward normals of both faces are nearly opposite, they have no
     mean: the result is the first face's inward normal, and pi, which allows all normals.
     """
-    along = vector_at(surface, row + ALONG)
-    left = cross(along, vector_at(surface, row + INTO_FIRST))
-    right = cross(vector_at(surface, row + INTO_SECOND), along)
+    along = vector_at(edge, ALONG)
+    left = cross(along, vector_at(edge, INTO_FIRST))
+    right = cross(vector_at(edge, INTO_SECOND), along)
     n = plus(left, right)
     length = norm(n)
     if length <= _SHARP:
@@ -182,15 +183,15 @@ def _rim_crosses(search: Search, upper: int, normal: Vector3, most_angle: float,
 
 
 @compiled
-def edge_is_near(search: Search, row: int) -> tuple[bool, bool, bool]:
+def edge_is_near(search: Search, row: Floats) -> tuple[bool, bool, bool]:
     """Return whether an edge may touch the side, the lower rim and the upper rim before the next search.
 
-    The row of the edge begins at index ``row`` of the surface.  An edge that passes through the frustum may touch each
+    ``row`` is the row of the edge.  An edge that passes through the frustum may touch each
     part that the frustum has, at any angle between the normals, because the bodies overlap.
     """
-    surface, frustum = search.surface, search.frustum
+    frustum = search.frustum
     numbers = frustum.numbers
-    edge = _Segment(vector_at(surface, row), vector_at(surface, row + ALONG), surface[row + LENGTH])
+    edge = _Segment(vector_at(row, 0), vector_at(row, ALONG), row[LENGTH])
     has_side = numbers[SIDE] > 0.0
     has_upper = has_side and numbers[HIGH_RADIUS] > 0.0
     if not _edge_comes_near(frustum, edge, search.reach):
@@ -199,7 +200,7 @@ def edge_is_near(search: Search, row: int) -> tuple[bool, bool, bool]:
     if _edge_comes_near(frustum, edge, -CLOSED * search.size if has_side else 0.0):
         return has_side, True, has_upper
     # an edge touches with the normals between those of its faces
-    n, half = _edge_normal(surface, row)
+    n, half = _edge_normal(row)
     most_angle = half + search.turn + _SHARP
     flank = has_side and abs(dot(n, frustum.axis) - numbers[SIN]) <= most_angle
     upper = has_upper and _rim_crosses(search, 1, n, most_angle, edge)
@@ -215,9 +216,10 @@ def corner_is_near(search: Search, corner: int) -> bool:
     corner.  A sharp corner touches a cap or the side of a sharp frustum only if none of its edges leads into the
     frustum more steeply than ``CONE_MARGIN``.
     """
-    surface, (numbers, center, axis), reach, turn, size = search
-    row, sweep = int(surface[CORNERS]) + CORNER * corner, numbers[FRUSTUM_SWEEP] + surface[SWEEP]
-    along, away, outward = across(minus(vector_at(surface, row), center), axis)
+    surface, frustum, reach, turn, size = search
+    numbers, _, axis = frustum
+    vertex, sweep = corner_at(surface, corner), numbers[FRUSTUM_SWEEP] + surface[SWEEP]
+    along, away, outward = from_axis(frustum, vertex.place)
     distance, radial, axial, _ = nearest_part(numbers, along, away)
     if distance > reach:
         return False
@@ -226,7 +228,7 @@ def corner_is_near(search: Search, corner: int) -> bool:
     if sweep > 0.0:
         # the corner moves by at most the margin of the search
         inward, displacement = opposite(normal_of_part(axis, outward, radial, axial)), reach - sweep
-        return bool(distance <= 0.0 or distance * steepest(surface, row, inward) <= displacement + turn * distance)
+        return bool(distance <= 0.0 or distance * steepest(vertex, inward) <= displacement + turn * distance)
     for part in (LOW_CAP, FLANK, HIGH_CAP):
         height, past, radial, axial = over_part(numbers, part, along, away)
         most_angle = turn
@@ -234,6 +236,6 @@ def corner_is_near(search: Search, corner: int) -> bool:
             # as the corner moves by up to ``reach``, the side's normal turns round the axis: add a bound of the angle
             most_angle += 2.0 if reach >= away else 0.5 * math.pi * reach / away
         inward = opposite(normal_of_part(axis, outward, radial, axial))
-        if abs(height) <= reach and past <= reach and steepest(surface, row, inward) <= CONE_MARGIN + most_angle:
+        if abs(height) <= reach and past <= reach and steepest(vertex, inward) <= CONE_MARGIN + most_angle:
             return True
     return False

@@ -24,7 +24,6 @@ from ...shapes.frustum import COS, HIGH, LOW, LOW_RADIUS, SIDE, SIN, SWEEP, Frus
 from ...shapes.smooth import SmoothShape
 from ...vectors import Vector3, minus, opposite, plus, plus_scaled, vector_at
 from ..features.frames import point_in_world
-from ..features.writing import write_sweep
 from ..smooth.inscribed import gauge, is_least_overlap
 from ..smooth.overlap_proof import do_overlap
 from ..smooth.round_search import up_hills
@@ -49,15 +48,17 @@ from .frustum import (
     HIGH_RIM,
     LOW_CAP,
     LOW_RIM,
+    Spot,
     center_in_world,
     nearest_part,
     part_names,
     part_number,
+    placed,
     rim_of,
-    write_part,
+    write_contact,
+    write_spot,
 )
 from .frustum_stops import ON_BORDER, Pair, by_search, from_rim, on_cap, on_flank, on_rim
-from .frustum_writing import write_contact
 
 _SHALLOW = 1e-8
 """Overlap up to which the first local maximum of the gap found is taken as the largest, relative to the size."""
@@ -223,8 +224,7 @@ def evaluate_frustum_smooth(
     away = max(ex * p[0] + ey * p[1] - core_gap * radial, 0.0)
     if part == LOW_RIM or part == HIGH_RIM:
         away, _, _ = rim_of(first, part)
-    write_part(out, SIDE_A, part, (axes_a[2], axes_a[5], axes_a[8]), rotated(axes_a, (ex, ey, 0.0)), radial, away)
-    write_sweep(out, SIDE_A, first[SWEEP])
+    write_spot(out, SIDE_A, Spot(placed(a, first), part, rotated(axes_a, (ex, ey, 0.0)), away), normal)
 
 
 @final

@@ -12,19 +12,22 @@ from nonsmooth.types import Floats
 
 from ...shapes.frustum import SWEEP, Frustum, without_feet
 from ...shapes.sphere import Sphere
-from ...vectors import Vector3, minus, plus_scaled, scaled, vector_at, write_vector
-from ..features.ends import ended_gap, past_star
-from ..features.frames import across, point_in_world
-from ..features.writing import place_sphere, write_round, write_sweep
+from ...vectors import Vector3, vector_at, write_vector
+from ..features.ends import ended_gap, past_vertex
+from ..features.frames import point_in_world
+from ..features.vertex import Vertex
+from ..features.writing import place_sphere, write_round
 from .frustum import (
     HIGH_CAP,
     LOW_CAP,
-    axis_in_world,
-    center_in_world,
+    Spot,
+    from_axis,
     nearest_part,
+    normal_of_part,
     part_names,
     part_number,
-    write_part,
+    placed,
+    write_spot,
 )
 
 
@@ -38,15 +41,14 @@ def write_frustum_ball(
     the point in the world [m], its signed distance from the frustum's core [m], and the nearest part, such as
     ``FLANK``.
     """
-    axis, point = axis_in_world(a, first), point_in_world(b, place)
-    along, away, outward = across(minus(point, center_in_world(a, first)), axis)
+    frustum, point = placed(a, first), point_in_world(b, place)
+    along, away, outward = from_axis(frustum, point)
     distance, radial, axial, part = nearest_part(first, along, away)
-    write_vector(out, NORMAL, plus_scaled(scaled(radial, outward), axial, axis))
+    normal = normal_of_part(frustum.axis, outward, radial, axial)
+    write_vector(out, NORMAL, normal)
     out[FEATURE] = part_number(first, part)
     place_sphere(a, out, point, distance - first[SWEEP], radius)
-    # the last argument is the distance of the core's contact point from the axis
-    write_part(out, SIDE_A, part, axis, outward, radial, away - distance * radial)
-    write_sweep(out, SIDE_A, first[SWEEP])
+    write_spot(out, SIDE_A, Spot(frustum, part, outward, away - distance * radial), normal)
     write_round(out, SIDE_B, radius)
     return point, distance, part
 
@@ -58,20 +60,17 @@ def write_frustum_vertex(
     out: Floats,
     first: Floats,
     radius: float,
-    place: Vector3,
-    n_star: float,
-    star: Floats,
+    vertex: Vertex,
     size: float,
 ) -> None:
     """Write the geometry block of a vertex, with a radius [m], and a frustum's nearest cap, rim, side or apex.
 
-    ``place`` is the vertex in the frame of the second body [m].  ``star`` holds ``n_star`` unit vectors along its
-    edges.  ``size`` is the size of the bodies [m].
+    The vertex is one of the second body.  ``size`` is the size of the bodies [m].
     """
-    point, distance, part = write_frustum_ball(a, b, out, first, radius, place)
+    point, distance, part = write_frustum_ball(a, b, out, first, radius, vertex.place)
     # over a cap the contact does not end at the vertex: an edge over the cap touches with both ends, also if it tilts
     is_flat = part in (LOW_CAP, HIGH_CAP)
-    past = past_star(b, star, 0.0 if is_flat else n_star, distance, vector_at(out, NORMAL), size)
+    past = past_vertex(b, vertex, 0.0 if is_flat else distance, vector_at(out, NORMAL), size)
     gap, out[PAST_END] = ended_gap(out[GAP], past, size)
     place_sphere(a, out, point, gap + radius, radius)
 

@@ -25,7 +25,7 @@ from ..smooth.newton import RIGHT, ROUND_OFF, has_ended
 from ..smooth.round_search import round_circle
 from ..smooth.smooth_core import Axes, Cores, NearestPoint, bend, facing_point, rotated_back
 from ..smooth.smooth_newton import widest_of_round
-from .frustum import FLANK, HIGH_CAP, LOW_CAP, LOW_RIM, rim_of
+from .frustum import FLANK, HIGH_CAP, LOW_CAP, LOW_RIM, along_side, rim_of
 
 ON_BORDER = 1e-14
 """Round-off allowed in two checks of a local maximum of the gap.
@@ -153,10 +153,10 @@ def _if_on_flank(frustum: Floats, near: float, found: NearestPoint) -> NearestPo
     tolerance at the rims [m].
     """
     g, p, n = found
-    cosine, sine = frustum[COS], frustum[SIN]
+    cosine = frustum[COS]
     # coordinates of the smooth body's point: along the normal's radial direction, and along the side from its lower rim
     away = (n[0] * p[0] + n[1] * p[1]) / cosine
-    up = cosine * (p[2] - frustum[LOW]) - sine * (away - frustum[LOW_RADIUS])
+    _, up = along_side(frustum, p[2], away)
     return (g, p, n) if away >= g * cosine and -near <= up <= frustum[SIDE] + near else (math.nan, p, n)
 
 

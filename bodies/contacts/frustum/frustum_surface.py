@@ -19,22 +19,29 @@ from ...shapes.frustum import SWEEP as FRUSTUM_SWEEP
 from ...shapes.surface_shape import SurfaceShape
 from ...shapes.triangle_mesh import TriangleMesh
 from ...vectors import minus, norm, plus_scaled, vector_at
+from ..features.edge_row import Edge
+from ..features.vertex import Vertex
 from ..features.writing import NO_CANDIDATE, write_apart
-from ..surface.surface_near import patches_near, patches_under, room_ahead
+from ..surface.surface_near import Near, patches_near, patches_under, room_ahead
 from ..surface.surface_pairs import MOST_NEAR, limits
-from ..surface.surface_search import ON_EDGE, ON_FACE, corner_at, edge_at, feature_of, member_of, node_at
 from ..surface.surface_tables import (
-    N_MEMBERS,
     N_NODES,
+    ON_EDGE,
+    ON_FACE,
     SKIP,
     SWEEP,
     UPPER,
+    Solid,
+    corner_at,
+    edge_at,
+    feature_of,
     star_lengths,
     surface_numbers,
 )
+from ..surface.surface_tree import members_at, node_at
 from .edges import write_across_rim, write_across_side
-from .frustum import HIGH_RIM, LOW_RIM, apex_of, feet_of, part_names, rims_of, set_back
-from .frustum_near import Search, corner_is_near, edge_is_near, from_core, rim_is_near
+from .frustum import HIGH_RIM, LOW_RIM, apex_of, feet_of, from_core, part_names, rims_of, set_back
+from .frustum_near import Search, corner_is_near, edge_is_near, rim_is_near
 from .frustum_sphere import write_frustum_vertex
 from .over_faces import frustum_in_surface, write_apex, write_corner, write_rim, write_tip
 
@@ -50,6 +57,13 @@ POINT_ROW, N_DIRECTIONS = 4, 3
 
 ``N_DIRECTIONS`` is the offset of this number, which all points of a frustum have in common.
 """
+
+
+@compiled
+def _point_at(points: Floats, i: int) -> Vertex:
+    """Return a point of the frustum, a foot or the apex, from its row."""
+    row = block_at(points, (POINT_ROW + 3 * int(points[N_DIRECTIONS])) * i)
+    return Vertex(vector_at(row, 0), row[N_DIRECTIONS], block_at(row, POINT_ROW))
 
 
 @compiled
@@ -131,18 +145,17 @@ def find_near_frustum(
         if from_core(placed, plus_scaled(corner, 0.5, diagonal)) > reach + 0.5 * norm(diagonal):
             node = int(surface[at + SKIP])
             continue
-        for i in range(int(surface[at + N_MEMBERS])):
-            n = _member_near(search, member_of(surface, at, i), out, n, limit)
-        node += 1
+        leaf = members_at(surface, at, node + 1)
+        for i in range(leaf.begin, leaf.end):
+            n = _member_near(search, int(surface[i]), out, n, limit)
+        node = leaf.after
     for i in range(int(n_points)):
-        row = (POINT_ROW + 3 * int(points[N_DIRECTIONS])) * i
-        place, n_star, star = vector_at(points, row), points[row + N_DIRECTIONS], block_at(points, row + POINT_ROW)
-        n = patches_under(b, a, surface, place, n_star, star, reach, turn, POINT, float(i), out, n, limit)
+        near = Near(out, POINT, out[0], reach, turn, limit)
+        n = patches_under(Solid(b, surface), a, _point_at(points, i), near, float(i), n)
     # the apex is a sphere if a body is rounded
     if sweep > 0.0 and frustum[SIDE] > 0.0 and frustum[HIGH_RADIUS] == 0.0:
-        n = patches_near(
-            surface, plus_scaled(placed.center, frustum[HIGH], placed.axis), reach, APEX, 0.0, out, n, limit
-        )
+        near = Near(out, APEX, out[0], reach, turn, limit)
+        n = patches_near(surface, plus_scaled(placed.center, frustum[HIGH], placed.axis), near, 0.0, n)
     out[0] = float(n) if n <= limit else most + 1.0
 
 
@@ -170,22 +183,19 @@ def evaluate_frustum_and_candidate(
     if kind == RIM:
         write_rim(a, b, out, frustum, j, surface, i, reach)
     elif kind == POINT:
-        row = (POINT_ROW + 3 * int(points[N_DIRECTIONS])) * j
-        place, n, star = vector_at(points, row), points[row + N_DIRECTIONS], block_at(points, row + POINT_ROW)
-        write_tip(a, b, out, frustum, surface, float(i), place, n, star, reach)
+        write_tip(a, b, out, frustum, surface, float(i), _point_at(points, j), reach)
     elif kind == APEX:
         write_apex(a, b, out, frustum, surface, float(i), size, reach)
     elif kind == UNDER:
         if sweep > 0.0:
-            corner, n, star = corner_at(surface, i)
-            write_frustum_vertex(a, b, out, frustum, surface[SWEEP], corner, n, star, size)
+            write_frustum_vertex(a, b, out, frustum, surface[SWEEP], corner_at(surface, i), size)
         else:
             write_corner(a, b, out, frustum, surface, i, lengths, size)
     elif kind == ACROSS_FLANK:
-        write_across_side(a, b, out, frustum, block_at(surface, edge_at(surface, i)), surface, size)
+        write_across_side(a, out, frustum, Edge(b, edge_at(surface, i)), surface, size)
     elif kind == ACROSS_BACK or kind == ACROSS_FRONT:
         rim, half = float(LOW_RIM + (HIGH_RIM - LOW_RIM) * j), -1.0 if kind == ACROSS_BACK else 1.0
-        write_across_rim(a, b, out, frustum, rim, half, block_at(surface, edge_at(surface, i)), surface, size)
+        write_across_rim(a, out, frustum, rim, half, Edge(b, edge_at(surface, i)), surface, size)
     else:
         write_apart(a, out, size)
 

@@ -13,32 +13,38 @@ from nonsmooth.types import Floats
 
 from ...shapes.frustum import AXIS, HIGH, LOW, LOW_RADIUS, SIDE
 from ...shapes.frustum import SWEEP as FRUSTUM_SWEEP
-from ...vectors import Vector3, dot, minus, norm, opposite, plus_scaled, vector_at
+from ...vectors import Vector3, dot, minus, opposite, plus_scaled, vector_at
 from ..features.edge_crossing import CONE_MARGIN
 from ..features.ends import CLOSED, END, NEAR, OPEN, REACH, gap_at_distance, gap_past_end
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
-from ..features.writing import write_flat, write_round, write_sweep
+from ..features.vertex import Vertex, steepest
+from ..features.writing import write_flat, write_round
 from ..surface.overlap_corners import FLUSH
 from ..surface.surface_ball import out_of_surface, write_feature
 from ..surface.surface_search import (
     FAR,
-    ON_FACE,
-    box_square,
-    corner_at,
-    corner_row,
     depth_inside,
     distance_from_ends,
-    face_at,
+    distance_from_triangle,
+    nearest_in_patch,
+    signed_distance,
+)
+from ..surface.surface_tables import (
+    IS_CONVEX,
+    N_FACES,
+    N_PATCHES,
+    ON_FACE,
+    SIZE,
+    STAR,
+    SWEEP,
+    Solid,
+    corner_at,
+    corner_row,
     face_height,
     feature_of,
-    in_triangle,
-    member_of,
-    nearest_in_patch,
-    node_at,
-    signed_distance,
-    steepest,
+    normal_of,
 )
-from ..surface.surface_tables import IS_CONVEX, N_FACES, N_MEMBERS, N_NODES, N_PATCHES, SIZE, SKIP, STAR, SWEEP
+from ..surface.surface_tree import ANY_PATCH, next_leaf
 from ..surface.surface_vertex import face_under, over_triangle
 from .frustum import (
     FLANK,
@@ -46,17 +52,20 @@ from .frustum import (
     LOW_CAP,
     LOW_RIM,
     Placed,
+    Spot,
     axis_in_world,
     center_in_world,
     least_height,
     normal_of_part,
+    off_cone_of_rim,
     on_axis_in_world,
     over_part,
     part_number,
+    past_apex,
     past_of_rim,
-    write_part,
+    write_contact,
+    write_spot,
 )
-from .frustum_writing import off_cone_of_rim, past_apex, write_contact
 
 _FLAT = 1e-12
 """Sine of the angle between the planes of rim and face below which the lowest point of the rim is round-off."""
@@ -90,22 +99,17 @@ def past_faces(surface: Floats, frustum: Placed, depth: float, point: Vector3) -
     """
     numbers, center, axis = frustum
     margin = REACH * (surface[SIZE] + depth)
-    least_deep, node = depth + margin, 0
-    while node < int(surface[N_NODES]):
-        at = node_at(surface, node)
-        if box_square(surface, at, point) > least_deep * least_deep:
-            node = int(surface[at + SKIP])
-            continue
-        for i in range(int(surface[at + N_MEMBERS])):
-            kind, face, triangle_row = feature_of(surface, member_of(surface, at, i))
+    least_deep = depth + margin
+    leaf = next_leaf(surface, 0, ANY_PATCH, point, least_deep * least_deep)
+    while leaf.begin < leaf.end:
+        for i in range(leaf.begin, leaf.end):
+            kind, face, row = feature_of(surface, int(surface[i]))
             if kind != ON_FACE:
                 continue
-            row = face_at(surface, face)
-            deep = -least_height(numbers, face_height(surface, row, center), axis, vector_at(surface, row))
+            deep = -least_height(numbers, face_height(surface, face, center), axis, normal_of(surface, face))
             if deep < least_deep:
-                x, y, z, _ = in_triangle(surface, triangle_row, point)
-                least_deep = min(least_deep, max(deep, norm(minus(point, (x, y, z)))))
-        node += 1
+                least_deep = min(least_deep, max(deep, distance_from_triangle(row, point)))
+        leaf = next_leaf(surface, leaf.after, ANY_PATCH, point, least_deep * least_deep)
     return float(depth - least_deep - margin)
 
 
@@ -143,32 +147,26 @@ def _rim_over(
     numbers, middle, axis = frustum
     center, radius = plus_scaled(middle, numbers[LOW + upper], axis), numbers[LOW_RADIUS + upper]
     up, sweep = 2.0 * upper - 1.0, numbers[FRUSTUM_SWEEP] + surface[SWEEP]
-    size, face_row = surface[SIZE], face_at(surface, face)
-    axial, radial, outward = lowest_on_rim(opposite(vector_at(surface, face_row)), axis, otherwise)
+    size = surface[SIZE]
+    axial, radial, outward = lowest_on_rim(opposite(normal_of(surface, face)), axis, otherwise)
     point = plus_scaled(center, radius, outward)
-    height = face_height(surface, face_row, point)
+    height = face_height(surface, face, point)
     past_cone = size * (off_cone_of_rim(numbers, up, radial, axial) - CONE_MARGIN)
     least_key, apart, past = reach * reach, reach, reach
     is_under, past_under = False, 0.0
-    node = 0
-    while node < int(surface[N_NODES]):
-        at = node_at(surface, node)
-        if box_square(surface, at, point) > least_key:
-            node = int(surface[at + SKIP])
-            continue
-        for i in range(int(surface[at + N_MEMBERS])):
-            kind, number, triangle_row = feature_of(surface, member_of(surface, at, i))
+    leaf = next_leaf(surface, 0, ANY_PATCH, point, least_key)
+    while leaf.begin < leaf.end:
+        for i in range(leaf.begin, leaf.end):
+            kind, number, row = feature_of(surface, int(surface[i]))
             if kind != ON_FACE or number != face:
                 continue
-            past_triangle, past_border, past_part, square = over_triangle(
-                surface, triangle_row, height, past_cone, REACH * size, point
-            )
+            past_triangle, past_border, past_part, square = over_triangle(row, height, past_cone, REACH * size, point)
             if past_triangle <= 0.0 and height < 0.0:
                 is_under, past_under = True, past_border
             key = square + max(past_part, 0.0) * max(past_part, 0.0)
             if key < least_key:
                 least_key, apart, past = key, math.sqrt(square), past_part
-        node += 1
+        leaf = next_leaf(surface, leaf.after, ANY_PATCH, point, least_key)
     if is_under and _is_real(surface, frustum, -height, point):
         return height - sweep, past_under
     if past <= 0.0:
@@ -195,12 +193,11 @@ def write_rim(
     # any point of the rim may become the lowest one
     placed, reach = frustum_in_surface(a, b, frustum), reach + 2.0 * radius
     gap, past = _rim_over(surface, face, placed, upper, vector_in_body(b, otherwise), reach)
-    n = vector_in_world(b, opposite(vector_at(surface, face_at(surface, face))))
-    _, radial, outward = lowest_on_rim(n, axis, otherwise)
+    n = vector_in_world(b, opposite(normal_of(surface, face)))
+    _, _, outward = lowest_on_rim(n, axis, otherwise)
     point = plus_scaled(plus_scaled(center, radius, outward), sweep, n)
     write_contact(a, out, gap, past, float(face), n, point, False)
-    write_part(out, SIDE_A, LOW_RIM, axis, outward, radial, radius)
-    write_sweep(out, SIDE_A, sweep)
+    write_spot(out, SIDE_A, Spot(Placed(frustum, center, axis), LOW_RIM, outward, radius), n)
     write_flat(out, SIDE_B)
 
 
@@ -212,20 +209,17 @@ def write_tip(
     frustum: Floats,
     surface: Floats,
     patch: float,
-    place: Vector3,
-    n_star: float,
-    star: Floats,
+    vertex: Vertex,
     reach: float,
 ) -> None:
     """Write the geometry block of a foot or a sharp apex of the first body over a patch of the second body.
 
-    ``place`` is the tip in its body frame [m]; ``star`` holds unit vectors along its ``n_star`` edges.  Faces are
-    searched up to the distance ``reach`` of the cores [m].
+    ``vertex`` is the tip.  Faces are searched up to the distance ``reach`` of the cores [m].
     """
-    face, gap, past = face_under(b, a, surface, patch, place, n_star, star, reach, False)
-    n = vector_in_world(b, opposite(vector_at(surface, face_at(surface, face))))
-    tip, sweep = point_in_world(a, place), frustum[FRUSTUM_SWEEP] + surface[SWEEP]
-    height = face_height(surface, face_at(surface, face), point_in_body(b, tip)) - sweep
+    face, gap, past = face_under(Solid(b, surface), a, patch, vertex, reach, False)
+    n = vector_in_world(b, opposite(normal_of(surface, face)))
+    tip, sweep = point_in_world(a, vertex.place), frustum[FRUSTUM_SWEEP] + surface[SWEEP]
+    height = face_height(surface, face, point_in_body(b, tip)) - sweep
     gap = gap_at_distance(gap, past, sweep)
     if past > 0.0 and height < 0.0 and surface[IS_CONVEX] == 1.0:
         # the depth of a spring at which another contact takes over
@@ -250,11 +244,11 @@ def write_apex(
     # a segment has no face that could stand for features out of reach
     found = nearest_in_patch(surface, patch, place, reach if surface[N_FACES] > 0.0 else FAR)
     # one patch is the whole surface, which has no end
-    past = found[1] if surface[N_PATCHES] > 1.0 else 0.0
-    n = opposite(out_of_surface(b, surface, found, past, place))
+    past = found.past if surface[N_PATCHES] > 1.0 else 0.0
+    n = opposite(out_of_surface(Solid(b, surface), found, past, place))
     radius = frustum[FRUSTUM_SWEEP]
-    gap = found[0] - radius - surface[SWEEP]
-    side_nearer = past_apex(frustum, found[0], dot(n, axis), size)
+    gap = found.distance - radius - surface[SWEEP]
+    side_nearer = past_apex(frustum, found.distance, dot(n, axis), size)
     # the sphere of the apex is a part of the cone, so that a large gap is valid as a bound of the bodies' gap
     past = max(past, min(side_nearer, -END * size) if gap > NEAR * size else side_nearer)
     # a corner has a contact of its own
@@ -267,12 +261,12 @@ def write_apex(
         gap = gap_past_end(gap, past, surface[IS_CONVEX] == 1.0)
     write_contact(a, out, gap, past, 0.0, n, plus_scaled(apex, radius, n), False)
     write_round(out, SIDE_A, radius)
-    write_feature(b, out, SIDE_B, surface, found[2], found[3])
+    write_feature(out, SIDE_B, Solid(b, surface), found.kind, found.number)
 
 
 @compiled
 def _tip_past_rim(
-    b: Floats, n_star: float, star: Floats, lengths: Floats, p: Vector3, n: Vector3, depth: float, radius: float
+    b: Floats, vertex: Vertex, lengths: Floats, p: Vector3, n: Vector3, depth: float, radius: float
 ) -> float:
     """Return a length [m] that is negative if a vertex behind a disc went through the disc.
 
@@ -281,14 +275,13 @@ def _tip_past_rim(
     plane.  A negative result means that an edge crosses the disc inside of the rim by more than ``depth``.  Otherwise
     the edges pass the rim from the side.
 
-    The vertex has ``n_star`` edges; ``star`` holds unit vectors along them in the body frame ``b``, ``lengths`` their
-    lengths [m].  In the world, ``p`` is the vertex from the centre of the disc [m], and ``n`` the unit normal of the
-    disc.  ``depth`` is the distance of the vertex from the disc's plane in the direction -n, ``radius`` is that of
-    the disc [m].
+    ``lengths`` are those of the edges of the ``vertex`` of body ``b`` [m].  In the world, ``p`` is the vertex from the
+    centre of the disc [m], and ``n`` the unit normal of the disc.  ``depth`` is the distance of the vertex from the
+    disc's plane in the direction -n, ``radius`` is that of the disc [m].
     """
     least = math.inf
-    for i in range(int(n_star)):
-        edge = vector_in_world(b, vector_at(star, 3 * i))
+    for i in range(int(vertex.n_star)):
+        edge = vector_in_world(b, vector_at(vertex.star, 3 * i))
         rise = dot(n, edge)
         # ignore edges that do not lead back, or that cross the plane only in their far half, next to another vertex
         if rise * lengths[i] <= 2.0 * depth:
@@ -312,9 +305,9 @@ def write_corner(
     ``corner`` is the number of the corner.  For a disc, ``lengths`` are those of the edges of all corners, one corner
     after the other [m].  ``size`` is the size of the larger body [m].
     """
-    row, (place, n_star, star) = corner_row(surface, corner), corner_at(surface, corner)
+    vertex = corner_at(surface, corner)
     axis, center = axis_in_world(a, frustum), center_in_world(a, frustum)
-    point = point_in_world(b, place)
+    point = point_in_world(b, vertex.place)
     along, away, outward = across(minus(point, center), axis)
     is_disc, margin, highest = frustum[SIDE] == 0.0, REACH * size, -math.inf
     for part in (LOW_CAP, FLANK, HIGH_CAP):
@@ -326,14 +319,14 @@ def write_corner(
         if height < 0.0 and not is_disc:
             # a corner below a cap's plane or the side's cone touches it only if the corner is inside of the frustum
             past_border = max(past_border, highest)
-        steepness = steepest(surface, row, vector_in_body(b, opposite(n)))
+        steepness = steepest(vertex, vector_in_body(b, opposite(n)))
         past_border = max(past_border - margin, size * (steepness - CONE_MARGIN))
         if is_disc and height < -CLOSED * size and past_border <= 0.0:
             # a corner behind a disc touches it only if its edges go through the disc, or if the corner's body encloses
             # the point of the disc nearest to the corner
-            own_lengths = block_at(lengths, int(surface[row + STAR]) // 3)
-            vertex = minus(point, center)
-            past_rim = _tip_past_rim(b, n_star, star, own_lengths, vertex, n, -height, frustum[LOW_RADIUS])
+            own_lengths = block_at(lengths, int(corner_row(surface, corner)[STAR]) // 3)
+            from_center = minus(point, center)
+            past_rim = _tip_past_rim(b, vertex, own_lengths, from_center, n, -height, frustum[LOW_RADIUS])
             foot = vector_in_body(b, minus(plus_scaled(point, -height, n), vector_at(b, POSITION)))
             if past_rim > 0.0 and depth_inside(surface, foot) == 0.0:
                 past_border = min(-height, past_rim)
@@ -344,5 +337,6 @@ def write_corner(
     _, _, radial, axial = over_part(frustum, nearest, along, away)
     normal = normal_of_part(axis, outward, radial, axial)
     write_contact(a, out, gap, past, part_number(frustum, nearest), normal, point, True)
-    write_part(out, SIDE_A, nearest, axis, outward, radial, max(away - gap * radial, 0.0))
+    spot = Spot(Placed(frustum, center, axis), nearest, outward, max(away - gap * radial, 0.0))
+    write_spot(out, SIDE_A, spot, normal)
     write_round(out, SIDE_B, 0.0)

@@ -8,77 +8,100 @@ normal of the feature.
 from __future__ import annotations
 
 import math
-from typing import TypeAlias
+from typing import NamedTuple
 
-from nonsmooth.compiled import compiled
+from nonsmooth.compiled import block_at, compiled
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import Core
-from ...vectors import Vector3, dot, minus, norm, plus_scaled, vector_at
-from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
+from ...vectors import Vector3, dot, minus, plus_scaled, vector_at
+from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH, START
+from ..features.vertex import Vertex, steepest
 from ..smooth.smooth_core import Axes, facing_point
 from ..smooth.smooth_newton import widest_from
-from .surface_search import face_at, in_triangle, past_edges, steepest
-from .surface_tables import FACE_NUMBER, OFFSET, SIZE, TRIANGLE
+from .surface_search import distance_from_triangle, past_edges
+from .surface_tables import SIZE, TRIANGLE, face_height, normal_of
 
-Stop: TypeAlias = tuple[float, float, Vector3, Vector3]
-"""A stop: distance of the core [m], distance past the end of the feature [m], unit normal to the core, point [m].
 
-The body may touch the feature if the distance past the end is not positive.  The point is one of the plane or line.
-The distance of the core is nan if the search failed.
-"""
-Nearest: TypeAlias = tuple[Stop, int, int]
-"""Result of a search: the stop, kind and number of its feature."""
+class SmoothOver(NamedTuple):
+    """A smooth body over a surface, in the axes of the surface."""
+
+    surface: Floats
+    """The surface."""
+    core: Core
+    """Numbers of the core of the body (:mod:`bodies.contacts.smooth.smooth_core`)."""
+    turn: Axes
+    """Rotation from the axes of the core to those of the surface."""
+    center: Vector3
+    """Centre of the core [m]."""
+    size: float
+    """Size of the body [m], the distance past the end of a feature for a normal off its normals by a sine of 1."""
+
+
+class Stop(NamedTuple):
+    """The minimum of the distance of a smooth body over the plane of a face, the line of an edge, or a corner."""
+
+    gap: float
+    """Distance of the core [m]; nan if the search failed."""
+    past: float
+    """Distance past the end of the feature [m]; the body may touch the feature if it is not positive."""
+    normal: Vector3
+    """Unit normal from the surface to the core."""
+    point: Vector3
+    """Point of the plane or line [m]."""
+
+
+class Nearest(NamedTuple):
+    """Result of a search: a stop and its feature."""
+
+    stop: Stop
+    """The stop."""
+    kind: int
+    """Kind of the feature, as ``ON_FACE``."""
+    number: int
+    """Number of the feature among those of its kind."""
 
 
 @compiled
-def over_face(surface: Floats, triangle: int, count: int, core: Core, turn: Axes, center: Vector3) -> Stop:
+def over_face(body: SmoothOver, face: int, triangle: Floats, count: int) -> Stop:
     """Return the stop over the plane of a face, of which ``count`` triangles from row ``triangle`` on are searched.
 
-    The distance past the end is the distance of the stop's point from these triangles.  ``turn`` and ``center`` are
-    those of :mod:`bodies.contacts.smooth.smooth_core`, in the axes of the surface.
+    The distance past the end is the distance of the stop's point from these triangles.
     """
-    f = face_at(surface, int(surface[triangle + FACE_NUMBER]))
-    n = vector_at(surface, f)
-    p = facing_point(core, turn, center, n)[0]
-    height = dot(n, p) - surface[f + OFFSET]
-    foot, least = plus_scaled(p, -height, n), math.inf
+    n = normal_of(body.surface, face)
+    p = facing_point(body.core, body.turn, body.center, n)[0]
+    height, least = face_height(body.surface, face, p), math.inf
+    foot = plus_scaled(p, -height, n)
     for i in range(count):
-        t = triangle + TRIANGLE * i
-        beyond, past = past_edges(surface, t, 0.0, p)
-        if beyond > 0.0:
-            x, y, z, _ = in_triangle(surface, t, foot)
-            past = norm(minus(foot, (x, y, z)))
-        least = min(least, past)
+        row = block_at(triangle, TRIANGLE * i)
+        past_any, past_border = past_edges(row, 0.0, p)
+        least = min(least, distance_from_triangle(row, foot) if past_any > 0.0 else past_border)
         if least <= 0.0:
             break
-    return height, max(least, -surface[SIZE]), n, foot
+    return Stop(height, max(least, -body.surface[SIZE]), n, foot)
 
 
 @compiled
-def over_edge(surface: Floats, edge: int, core: Core, turn: Axes, center: Vector3, start: Vector3, size: float) -> Stop:
-    """Return the stop over the line of the edge at row ``edge``; the search starts with the normal ``start``.
+def over_edge(body: SmoothOver, edge: Floats, start: Vector3) -> Stop:
+    """Return the stop over the line of the edge with the row ``edge``; the search starts with the normal ``start``.
 
-    The distance past the end is the largest of the distance past an end of the edge and of ``size`` times the component
+    The distance past the end is the largest of the distance past an end of the edge and of the size times the component
     of the normal into a face of the edge.
     """
-    begin, along = vector_at(surface, edge), vector_at(surface, edge + ALONG)
+    begin, along = vector_at(edge, START), vector_at(edge, ALONG)
     # a start nearly along the edge loses digits in this difference; Newton's method takes its part along the edge again
     start = plus_scaled(start, -dot(start, along), along)
-    g, p, n = widest_from(core, turn, minus(center, begin), along, start)
+    g, p, n = widest_from(body.core, body.turn, minus(body.center, begin), along, start)
     s = dot(p, along)
-    into = max(dot(n, vector_at(surface, edge + INTO_FIRST)), dot(n, vector_at(surface, edge + INTO_SECOND)))
-    return g, max(max(-s, s - surface[edge + LENGTH]), size * into), n, plus_scaled(begin, s, along)
+    into = max(dot(n, vector_at(edge, INTO_FIRST)), dot(n, vector_at(edge, INTO_SECOND)))
+    return Stop(g, max(max(-s, s - edge[LENGTH]), body.size * into), n, plus_scaled(begin, s, along))
 
 
 @compiled
-def over_corner(
-    surface: Floats, corner: int, core: Core, turn: Axes, center: Vector3, start: Vector3, size: float
-) -> Stop:
-    """Return the stop over the corner at row ``corner``; the search starts with the normal ``start``.
+def over_corner(body: SmoothOver, corner: Vertex, start: Vector3) -> Stop:
+    """Return the stop over a corner; the search starts with the normal ``start``.
 
-    The distance past the end is ``size`` times the largest component of the normal along an edge of the corner.
+    The distance past the end is the size times the largest component of the normal along an edge of the corner.
     """
-    place = vector_at(surface, corner)
-    g, _, n = widest_from(core, turn, minus(center, place), (0.0, 0.0, 0.0), start)
-    return g, size * steepest(surface, corner, n), n, place
+    g, _, n = widest_from(body.core, body.turn, minus(body.center, corner.place), (0.0, 0.0, 0.0), start)
+    return Stop(g, body.size * steepest(corner, n), n, corner.place)

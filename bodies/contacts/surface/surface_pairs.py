@@ -8,24 +8,23 @@ from typing import NamedTuple
 import numpy as np
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END
 from nonsmooth.interfaces import CandidateSearch, FeaturePair
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...meshes.features import Features
 from ...meshes.patches import patches_for_ball, patches_of_faces
-from ...vectors import vector_at
 from ..features.bounds import edges_bound
+from ..features.edge_row import Edge
+from ..features.frames import point_seen_from
 from ..features.writing import NO_CANDIDATE, write_apart
 from .near_pairs import find_near_features
-from .overlap_corners import corner_of_overlap, part_of_overlap
-from .surface_ball import write_round_corner
+from .overlap_corners import Over
+from .surface_ball import write_round_corner, write_sharp_corner
 from .surface_edges import write_edges
-from .surface_near import EDGE_ACROSS, NARROW, OVER_FIRST, OVER_SECOND, seen_from
-from .surface_search import FAR, corner_at, edge_at, nearest_in_patch, signed_distance
-from .surface_tables import IS_CONVEX, N_FACES, SWEEP, surface_numbers
-from .surface_vertex import past_depth, write_sharp_corner
+from .surface_near import EDGE_ACROSS, NARROW, OVER_FIRST, OVER_SECOND
+from .surface_search import FAR, nearest_in_patch, signed_distance
+from .surface_tables import N_FACES, SWEEP, Solid, corner_at, edge_at, surface_numbers
 
 MOST_NEAR = 256
 """Largest number of pairs of features of two bodies that may be near each other at a time."""
@@ -34,39 +33,16 @@ _MOST_EACH = 8
 
 
 @compiled
-def _write_corner(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    swap: float,
-    surface: Floats,
-    patch: int,
-    own: Floats,
-    corner: int,
-    size: float,
-    margin: float,
-) -> None:
+def _write_corner(out: Floats, over: Over, margin: float) -> None:
     """Write the geometry block of a corner over a patch; ``margin`` is the largest gap of a pair of features [m].
 
     If both bodies are sharp, the corner touches faces only.  Else it is a ball, or a point near a round surface.
     """
-    radius, (place, n_star, star) = surface[SWEEP] + own[SWEEP], corner_at(own, corner)
+    radius = over.solid.surface[SWEEP] + over.other.surface[SWEEP]
     if radius > 0.0:
-        write_round_corner(a, b, out, swap, surface, float(patch), own, place, n_star, star, size, margin + radius)
-        return
-    is_convex = surface[IS_CONVEX] * own[IS_CONVEX] > 0.0
-    write_sharp_corner(a, b, out, swap, surface, float(patch), place, n_star, star, margin, is_convex)
-    part = part_of_overlap(-out[GAP], size)
-    if part > 0.0:
-        # bodies on springs overlap: then the corners of the overlap touch, unless another face is less deep
-        own_frame, other = (a, b) if swap == 1.0 else (b, a)
-        n, point = vector_at(out, NORMAL), seen_from(other, own_frame, place)
-        is_known, past_corner, _ = corner_of_overlap(a, b, swap, surface, own, place, n_star, star, n, size)
-        past = out[PAST_END]
-        if past > 0.0:
-            past = past_depth(other, own_frame, surface, n_star, star, (point, point), -out[GAP], point)
-        if is_known and past <= 0.0:
-            out[PAST_END] = (1.0 - part) * out[PAST_END] + part * past_corner
+        write_round_corner(out, over, margin + radius)
+    else:
+        write_sharp_corner(out, over, margin)
 
 
 def evaluate_surfaces(
@@ -79,23 +55,25 @@ def evaluate_surfaces(
     :mod:`bodies.contacts.surface.surface_tables`; ``size`` is the size of the larger body [m].
     """
     kind, i, j, margin = candidate[0], int(candidate[1]), int(candidate[2]), candidate[3]
+    first, second = Solid(a, surface_a), Solid(b, surface_b)
     if kind == OVER_FIRST:
-        _write_corner(a, b, out, 0.0, surface_a, i, surface_b, j, size, margin)
+        _write_corner(out, Over(first, float(i), second, corner_at(surface_b, j), False, size), margin)
     elif kind == OVER_SECOND:
-        _write_corner(a, b, out, 1.0, surface_b, i, surface_a, j, size, margin)
+        _write_corner(out, Over(second, float(i), first, corner_at(surface_a, j), True, size), margin)
     elif kind == EDGE_ACROSS:
-        write_edges(a, b, out, surface_a, edge_at(surface_a, i), surface_b, edge_at(surface_b, j), size)
+        write_edges(out, first, i, second, j, size)
     else:
         write_apart(a, out, size)
 
 
 @compiled
-def _distance(frame: Floats, other: Floats, surface: Floats, own: Floats, corner: int) -> float:
+def _distance(solid: Solid, other: Solid, corner: int) -> float:
     """Return the distance of a corner of the other body from a surface [m], negative inside."""
-    place, _, _ = corner_at(own, corner)
-    point = seen_from(frame, other, place)
+    point = point_seen_from(solid.frame, other.frame, corner_at(other.surface, corner).place)
     # a segment or a point has no inside
-    return signed_distance(surface, point) if surface[N_FACES] > 0.0 else nearest_in_patch(surface, 0.0, point, FAR)[0]
+    if solid.surface[N_FACES] == 0.0:
+        return nearest_in_patch(solid.surface, 0.0, point, FAR).distance
+    return signed_distance(solid.surface, point)
 
 
 def bound_of_surfaces(
@@ -103,12 +81,13 @@ def bound_of_surfaces(
 ) -> None:
     """Write by how much the bodies must move before a pair of features touches [m]."""
     kind, i, j = candidate[0], int(candidate[1]), int(candidate[2])
+    first, second = Solid(a, surface_a), Solid(b, surface_b)
     if kind == OVER_FIRST:
-        distance = _distance(a, b, surface_a, surface_b, j)
+        distance = _distance(first, second, j)
     elif kind == OVER_SECOND:
-        distance = _distance(b, a, surface_b, surface_a, j)
+        distance = _distance(second, first, j)
     else:
-        distance = edges_bound(a, b, surface_a, edge_at(surface_a, i), surface_b, edge_at(surface_b, j))
+        distance = edges_bound(Edge(a, edge_at(surface_a, i)), Edge(b, edge_at(surface_b, j)))
     out[0] = distance - surface_a[SWEEP] - surface_b[SWEEP]
 
 

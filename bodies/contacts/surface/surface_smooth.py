@@ -15,17 +15,28 @@ from ...shapes.smooth import SmoothShape, extent
 from ...shapes.support_function import is_round
 from ...shapes.surface_shape import SurfaceShape
 from ...vectors import minus, opposite, plus_scaled, vector_at, write_vector
-from ..features.frames import point_in_body, point_in_world, vector_in_world, write_tangent
+from ..features.edge_row import START
+from ..features.frames import point_in_world, point_seen_from, vector_in_world, write_tangent
 from ..features.writing import NO_CANDIDATE, write_apart
-from ..smooth.smooth_core import CENTER, RADIUS, axes_in_world, axes_of, facing_point, relative_rotation, rotated_back
+from ..smooth.smooth_core import (
+    CENTER,
+    RADIUS,
+    axes_in_world,
+    axes_of,
+    facing_point,
+    largest_semi_axis,
+    relative_rotation,
+    rotated_back,
+    spread,
+)
 from ..smooth.smooth_newton import write_surface
 from .convex_smooth import nearest_of_convex
 from .patch_smooth import nearest_of_patch
-from .smooth_stops import Nearest
+from .smooth_stops import SmoothOver
 from .surface_ball import write_feature
-from .surface_near import patches_near, seen_from
-from .surface_search import FAR, ON_FACE
-from .surface_tables import IS_CONVEX, N_PATCHES, SWEEP, part_names, surface_numbers
+from .surface_near import Near, patches_near
+from .surface_search import FAR
+from .surface_tables import IS_CONVEX, N_PATCHES, ON_FACE, SWEEP, Solid, edge_at, part_names, surface_numbers
 
 MOST_EACH = 8
 """Largest number of patches of a surface for which each patch is a contact of its own, without a search."""
@@ -38,8 +49,8 @@ A candidate has four numbers: its kind, the number of the patch, 0, and the dist
 
 def find_near_patches(a: Floats, b: Floats, out: Floats, surface: Floats, extent: float, place: Floats) -> None:
     """Find the patches with a feature near the ball that encloses the second body, about a place in its frame [m]."""
-    most, reach = int(surface[N_PATCHES]), extent + out[0]
-    out[0] = float(patches_near(surface, seen_from(a, b, vector_at(place, 0)), reach, NEAR, 0.0, out, 0, most))
+    near = Near(out, NEAR, out[0], extent + out[0], 0.0, int(surface[N_PATCHES]))
+    out[0] = float(patches_near(surface, point_seen_from(a, b, vector_at(place, 0)), near, 0.0, 0))
 
 
 def evaluate_surface_smooth(
@@ -54,14 +65,14 @@ def evaluate_surface_smooth(
         write_apart(a, out, size)
         return
     axes_b, is_convex = axes_in_world(b, second), surface[IS_CONVEX] == 1.0
-    center = point_in_body(a, point_in_world(b, vector_at(second, CENTER)))
+    center = point_seen_from(a, b, vector_at(second, CENTER))
     turn = relative_rotation(axes_of(a), axes_b)
     if is_convex:
-        nearest: Nearest = nearest_of_convex(surface, second, turn, center)
+        span = spread(center) + largest_semi_axis(second) + spread(vector_at(edge_at(surface, 0), START))
+        (g, past, n, point), kind, number = nearest_of_convex(SmoothOver(surface, second, turn, center, span))
     else:
-        reach = candidate[3] + surface[SWEEP]
-        nearest = nearest_of_patch(surface, candidate[1], second, turn, center, extent, reach)
-    (g, past, n, point), kind, number = nearest
+        body, reach = SmoothOver(surface, second, turn, center, extent), candidate[3] + surface[SWEEP]
+        (g, past, n, point), kind, number = nearest_of_patch(body, candidate[1], reach)
     gap = g - surface[SWEEP] - second[RADIUS]
     # if there is one patch only, it is the whole surface, which has no end
     out[PAST_END] = past if surface[N_PATCHES] > 1.0 else 0.0
@@ -77,7 +88,7 @@ def evaluate_surface_smooth(
     write_vector(out, POINT_A, plus_scaled(point_b, -out[GAP], normal))
     write_tangent(a, out)
     write_surface(out, SIDE_B, second, axes_b, rotated_back(turn, opposite(n)), rotated_back(turn, minus(p, center)))
-    write_feature(a, out, SIDE_A, surface, kind, number)
+    write_feature(out, SIDE_A, Solid(a, surface), kind, number)
 
 
 @final

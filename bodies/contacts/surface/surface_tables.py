@@ -1,4 +1,4 @@
-"""Packs a surface, convex or not, into one array for compiled functions.
+"""Packs a surface, convex or not, into one array for compiled functions, and reads its rows.
 
 The array holds the faces, triangles, convex edges and corners of the surface, and a tree of their bounding boxes.
 """
@@ -6,16 +6,21 @@ The array holds the faces, triangles, convex edges and corners of the surface, a
 from __future__ import annotations
 
 import itertools
+from typing import NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from nonsmooth.compiled import block_at, compiled
 from nonsmooth.interfaces.body import Vector
 from nonsmooth.parameters import SharedNumbers
+from nonsmooth.types import Floats
 
 from ...meshes.features import FLAT, Features
 from ...meshes.patches import Patches
 from ...meshes.topology import Integers, neighbours
+from ...vectors import Vector3, dot, vector_at
+from ..features.vertex import Vertex
 
 Numbers = tuple[float, ...]
 
@@ -57,17 +62,19 @@ The members of a node are the features in its box, by number: triangles first, t
 """
 UPPER, SKIP, FIRST_MEMBER, N_MEMBERS, PATCH_BITS = 3, 6, 7, 8, 9
 """Offsets in the row of a node: highest corner, node after its subtree, list and number of its members, its patches."""
-OFFSET, FACE_PATCH, FIRST_TRIANGLE, N_OF_FACE = 3, 4, 5, 6
+_OFFSET, _FACE_PATCH, _FIRST_TRIANGLE, _N_OF_FACE = 3, 4, 5, 6
 """Offsets in the row of a face: distance of its plane, number of its patch, first triangle and number of triangles."""
 FACE_NUMBER, EDGE_PLANES, BORDERS = 9, 10, 22
 """Offsets in the row of a triangle: number of its face, planes at its edges, kinds of its edges."""
-EDGE_PATCH, EXTENSIONS = 13, 14
+_EDGE_PATCH, EXTENSIONS = 13, 14
 """Offsets in the row of an edge after those of a core's edge: number of its patch, extensions past both ends."""
-CORNER_PATCH, STAR, N_STAR = 3, 4, 5
+_CORNER_PATCH, STAR, _N_STAR = 3, 4, 5
 """Offsets in the row of a corner: number of its patch, index and number of the unit vectors along its edges."""
 INSIDE, CONVEX, CONCAVE = 0.0, 1.0, 2.0
 """Kinds of edges of a triangle: inside of its face, or on the border of the face, where the next face bends down or up.
 """
+ON_FACE, ON_EDGE, ON_CORNER = 0, 1, 2
+"""Kinds of features of a surface."""
 BITS = 52
 """Largest number of patches whose bits a float stores exactly, one bit for each patch.
 
@@ -75,6 +82,88 @@ With more patches, a node of the tree does not know its patches, and a search vi
 """
 _LEAF = 4
 """Largest number of features in a leaf of the tree."""
+
+
+class Solid(NamedTuple):
+    """A body with a surface, at its place in the world."""
+
+    frame: Floats
+    """Frame block of the body."""
+    surface: Floats
+    """Its surface."""
+
+
+@compiled
+def are_convex(one: Solid, other: Solid) -> bool:
+    """Return whether two bodies are convex."""
+    return one.surface[IS_CONVEX] * other.surface[IS_CONVEX] > 0.0
+
+
+@compiled
+def _face_at(surface: Floats, face: int) -> Floats:
+    """Return the row of a face."""
+    return block_at(surface, int(surface[FACES]) + FACE * face)
+
+
+@compiled
+def normal_of(surface: Floats, face: int) -> Vector3:
+    """Return the outward unit normal of a face."""
+    return vector_at(_face_at(surface, face), 0)
+
+
+@compiled
+def face_height(surface: Floats, face: int, point: Vector3) -> float:
+    """Return the height of a point over the plane of a face [m]."""
+    row = _face_at(surface, face)
+    return float(dot(vector_at(row, 0), point) - row[_OFFSET])
+
+
+@compiled
+def triangles_of(surface: Floats, face: int) -> tuple[Floats, int]:
+    """Return the row of the first triangle of a face, which the others follow, and the number of its triangles."""
+    row = _face_at(surface, face)
+    return block_at(surface, int(surface[TRIANGLES]) + TRIANGLE * int(row[_FIRST_TRIANGLE])), int(row[_N_OF_FACE])
+
+
+@compiled
+def edge_at(surface: Floats, edge: int) -> Floats:
+    """Return the row of a convex edge."""
+    return block_at(surface, int(surface[EDGES]) + EDGE * edge)
+
+
+@compiled
+def corner_row(surface: Floats, corner: int) -> Floats:
+    """Return the row of a corner."""
+    return block_at(surface, int(surface[CORNERS]) + CORNER * corner)
+
+
+@compiled
+def corner_at(surface: Floats, corner: int) -> Vertex:
+    """Return a corner, in the axes of the surface."""
+    row = corner_row(surface, corner)
+    return Vertex(vector_at(row, 0), row[_N_STAR], block_at(surface, int(surface[STARS]) + int(row[STAR])))
+
+
+@compiled
+def feature_of(surface: Floats, member: int) -> tuple[int, int, Floats]:
+    """Return kind, number and row of the feature of a member of the tree; of a face, the row is that of a triangle."""
+    edge = member - int(surface[N_TRIANGLES])
+    if edge < 0:
+        row = block_at(surface, int(surface[TRIANGLES]) + TRIANGLE * member)
+        return ON_FACE, int(row[FACE_NUMBER]), row
+    corner = edge - int(surface[N_EDGES])
+    if corner < 0:
+        return ON_EDGE, edge, edge_at(surface, edge)
+    return ON_CORNER, corner, corner_row(surface, corner)
+
+
+@compiled
+def patch_of(surface: Floats, member: int) -> float:
+    """Return the number of the patch to which the feature of a member of the tree belongs."""
+    kind, number, row = feature_of(surface, member)
+    if kind == ON_FACE:
+        return float(_face_at(surface, number)[_FACE_PATCH])
+    return float(row[_EDGE_PATCH if kind == ON_EDGE else _CORNER_PATCH])
 
 
 _NUMBERS: WeakKeyDictionary[Features, dict[tuple[Patches, float], SharedNumbers]] = WeakKeyDictionary()

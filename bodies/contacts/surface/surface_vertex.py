@@ -5,49 +5,45 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, POSITION, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import POSITION
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, dot, minus, scaled, vector_at, write_vector
+from ...vectors import Vector3, dot, minus, opposite, vector_at
 from ..features.edge_crossing import CONE_MARGIN
 from ..features.ends import CLOSED, REACH
-from ..features.frames import point_in_body, point_in_world, vector_in_body, vector_in_world, write_tangent
-from ..features.writing import write_flat, write_round
+from ..features.frames import point_in_body, point_seen_from, vector_seen_from
+from ..features.vertex import Vertex, steepest
 from .overlap_corners import FLUSH
-from .surface_search import (
+from .surface_search import in_triangle, outward_of, past_edges
+from .surface_tables import (
+    N_CORNERS,
+    N_FACES,
     ON_FACE,
-    box_square,
-    face_at,
+    SIZE,
+    Solid,
+    corner_at,
     face_height,
     feature_of,
-    first_leaf,
-    has_patch,
-    in_triangle,
-    member_of,
-    node_at,
-    outward_of,
-    past_edges,
+    normal_of,
+    patch_of,
 )
-from .surface_tables import CORNER, CORNERS, FACE_PATCH, N_CORNERS, N_FACES, N_MEMBERS, N_NODES, SIZE, SKIP
+from .surface_tree import ANY_PATCH, first_leaf, next_leaf
 
 
 @compiled
-def descent(frame: Floats, other: Floats, surface: Floats, row: int, n_star: float, star: Floats) -> float:
+def descent(solid: Solid, other: Floats, face: int, vertex: Vertex) -> float:
     """Return the sine of the angle at which the steepest edge of the other body's vertex descends below a face.
 
-    It is negative if all edges ascend from the face, whose row begins at index ``row``.  The vertex has ``n_star``
-    edges; ``star`` holds unit vectors along them, in the axes of the other body.
+    It is negative if all edges ascend from the face of the solid, -1 without edges.  ``other`` is the frame block of
+    the other body.
     """
-    n = vector_in_body(other, vector_in_world(frame, vector_at(surface, row)))
-    down = -1.0
-    for i in range(int(n_star)):
-        down = max(down, -dot(n, vector_at(star, 3 * i)))
-    return down
+    n = vector_seen_from(other, solid.frame, normal_of(solid.surface, face))
+    return max(-1.0, steepest(vertex, opposite(n)))
 
 
 @compiled
 def over_triangle(
-    surface: Floats, triangle: int, height: float, least: float, margin: float, point: Vector3
+    triangle: Floats, height: float, least: float, margin: float, point: Vector3
 ) -> tuple[float, float, float, float]:
     """Return four numbers for a vertex and a triangle of the surface.
 
@@ -61,8 +57,8 @@ def over_triangle(
 
     Parameters
     ----------
-    surface, triangle : Floats, int
-        The surface, and the index at which the row of the triangle begins.
+    triangle : Floats
+        Row of the triangle.
     height : float
         Height of the vertex over the plane of the triangle [m].
     least : float
@@ -72,12 +68,11 @@ def over_triangle(
     point : tuple of float
         The vertex in the axes of the surface [m].
     """
-    past_any, past_border = past_edges(surface, triangle, height, point)
+    past_any, past_border = past_edges(triangle, height, point)
     past_any, past_border = max(past_any - margin, least), max(past_border - margin, least)
     past, square = past_border, height * height
     if past_any > 0.0 or height < 0.0:
-        qx, qy, qz, _ = in_triangle(surface, triangle, point)
-        apart = minus(point, (qx, qy, qz))
+        apart = minus(point, in_triangle(triangle, point)[0])
         square = dot(apart, apart)
         past_square = square - height * height if height > 0.0 else square
         past = max(math.sqrt(max(past_square, 0.0)) - margin, past_any)
@@ -86,14 +81,7 @@ def over_triangle(
 
 @compiled
 def past_depth(
-    frame: Floats,
-    other: Floats,
-    surface: Floats,
-    n_star: float,
-    star: Floats,
-    ends: tuple[Vector3, Vector3],
-    depth: float,
-    point: Vector3,
+    solid: Solid, other: Floats, vertex: Vertex, ends: tuple[Vector3, Vector3], depth: float, point: Vector3
 ) -> float:
     """Return by how much the depth of an overlap exceeds what a surface allows [m]; not positive for a real overlap.
 
@@ -108,13 +96,10 @@ def past_depth(
 
     Parameters
     ----------
-    frame, other : Floats
-        Frame blocks of the body with the surface, and of the other body.
-    surface : Floats
-        The surface.
-    n_star, star : float and Floats
-        Unit vectors from the feature into its body, in the axes of the other body: along the edges of a vertex, into
-        the faces of an edge.
+    solid, other : Solid, Floats
+        The body with the surface, and the frame block of the other body.
+    vertex : Vertex
+        The feature of the other body; an edge has unit vectors into its two faces in place of those along edges.
     ends : tuple of Vector3
         The ends of the feature in the axes of the surface [m].
     depth : float
@@ -122,50 +107,43 @@ def past_depth(
     point : Vector3
         The point of the feature, in the axes of the surface [m].
     """
+    surface = solid.surface
     margin = CLOSED * surface[SIZE]
     # depths within the margin are round-off: the point may be on a border
     if depth <= margin:
         return -margin
     least, side, least_deep = math.inf, 0.0, depth * (1.0 + REACH)
-    first = first_leaf(surface, -1.0, point)
-    node = -1
-    while node < int(surface[N_NODES]):
-        at = node_at(surface, first if node < 0 else node)
-        if node >= 0 and box_square(surface, at, point) > max(least, least_deep * least_deep):
-            node = int(surface[at + SKIP])
-            continue
-        for i in range(int(surface[at + N_MEMBERS])):
-            what, face, t = feature_of(surface, member_of(surface, at, i))
-            if what != ON_FACE:
+    leaf = first_leaf(surface, ANY_PATCH, point)
+    while leaf.begin < leaf.end:
+        for i in range(leaf.begin, leaf.end):
+            kind, face, row = feature_of(surface, int(surface[i]))
+            if kind != ON_FACE:
                 continue
-            square, outward = outward_of(surface, face, t, point)
+            square, outward = outward_of(surface, face, row, point)
             if square < least:
                 least, side = square, outward
-            f = face_at(surface, face)
             # depth of a face: of both ends below its plane, and of the point below its triangle, the largest
-            deep = max(-face_height(surface, f, ends[0]), -face_height(surface, f, ends[1]))
+            deep = max(-face_height(surface, face, ends[0]), -face_height(surface, face, ends[1]))
             deep = max(deep, math.sqrt(square))
-            if deep < least_deep and descent(frame, other, surface, f, n_star, star) <= CONE_MARGIN:
+            if deep < least_deep and descent(solid, other, face, vertex) <= CONE_MARGIN:
                 least_deep = deep
-        node += 1
+        leaf = next_leaf(surface, leaf.after, ANY_PATCH, point, max(least, least_deep * least_deep))
     outside = math.sqrt(least) if side >= 0.0 else 0.0
     return max(depth - (1.0 + REACH) * least_deep, outside - margin - FLUSH * depth)
 
 
 @compiled
-def separation_of_faces(frame: Floats, other: Floats, surface: Floats, own: Floats) -> float:
+def separation_of_faces(solid: Solid, other: Solid) -> float:
     """Return the largest separation of two convex bodies along the normals of the first one's faces [m].
 
-    It is negative if none of the planes of the faces separates the bodies, -inf without faces.  The surface belongs to
-    the body ``frame``; ``own`` is that of the body ``other``.
+    It is negative if none of the planes of the faces separates the bodies, -inf without faces.
     """
-    best = -math.inf
-    for i in range(int(surface[N_FACES])):
-        row, least = face_at(surface, i), math.inf
-        n = vector_in_body(other, vector_in_world(frame, vector_at(surface, row)))
-        base = face_height(surface, row, point_in_body(frame, vector_at(other, POSITION)))
-        for corner in range(int(own[N_CORNERS])):
-            least = min(least, base + dot(n, vector_at(own, int(own[CORNERS]) + CORNER * corner)))
+    best, origin = -math.inf, point_in_body(solid.frame, vector_at(other.frame, POSITION))
+    for face in range(int(solid.surface[N_FACES])):
+        least, n = math.inf, vector_seen_from(other.frame, solid.frame, normal_of(solid.surface, face))
+        base = face_height(solid.surface, face, origin)
+        for corner in range(int(other.surface[N_CORNERS])):
+            least = min(least, base + dot(n, corner_at(other.surface, corner).place))
             if least < best:
                 break
         best = max(best, least)
@@ -174,90 +152,42 @@ def separation_of_faces(frame: Floats, other: Floats, surface: Floats, own: Floa
 
 @compiled
 def face_under(
-    frame: Floats,
-    other: Floats,
-    surface: Floats,
-    patch: float,
-    place: Vector3,
-    n_star: float,
-    star: Floats,
-    reach: float,
-    is_convex: bool,
+    solid: Solid, other: Floats, patch: float, vertex: Vertex, reach: float, is_convex: bool
 ) -> tuple[int, float, float]:
-    """Return face, gap and distance past the end [m] for a vertex of the other body and a patch in ``frame``.
+    """Return face, gap and distance past the end [m] for a vertex of the other body and a patch of a solid.
 
     The distance past the end is positive if the vertex may not touch the face.  It may touch the face if it is over the
     face and none of its edges descends below the face.  A vertex inside of the body belongs to the nearest face that it
     may touch.  If the vertex may not touch the face, the gap is hypot(distance, past); a negative one is kept if both
-    bodies are convex (``is_convex``).  If no face is within ``reach`` [m], gap and
-    distance past the end are ``reach``.
+    bodies are convex (``is_convex``).  If no face is within ``reach`` [m], gap and distance past the end are ``reach``.
 
-    ``place`` is the vertex in the axes of its body [m]; ``star`` holds unit vectors along its ``n_star`` edges.
+    ``other`` is the frame block of the other body.
     """
-    point = point_in_body(frame, point_in_world(other, place))
+    surface, point = solid.surface, point_seen_from(solid.frame, other, vertex.place)
     size = surface[SIZE]
     # a point by itself has no edges beside it
-    margin = (CLOSED if n_star > 0.0 else REACH) * size
+    margin = (CLOSED if vertex.n_star > 0.0 else REACH) * size
     best, height_best, apart, past, found = reach * reach, 0.0, reach, reach, 0
     # the least deep face above the vertex, if it is inside of the body
     depth, depth_past, depth_face = math.inf, 0.0, -1
-    first = first_leaf(surface, patch, point)
-    node = -1
-    while node < int(surface[N_NODES]):
-        at = node_at(surface, first if node < 0 else node)
-        if node >= 0 and (box_square(surface, at, point) > best or not has_patch(surface, at, patch)):
-            node = int(surface[at + SKIP])
-            continue
-        for i in range(int(surface[at + N_MEMBERS])):
-            what, face, t = feature_of(surface, member_of(surface, at, i))
-            if what != ON_FACE:
+    leaf = first_leaf(surface, patch, point)
+    while leaf.begin < leaf.end:
+        for i in range(leaf.begin, leaf.end):
+            kind, face, row = feature_of(surface, int(surface[i]))
+            if kind != ON_FACE or patch_of(surface, int(surface[i])) != patch:
                 continue
-            f = face_at(surface, face)
-            height = face_height(surface, f, point)
-            if surface[f + FACE_PATCH] != patch or height * height > best:
+            height = face_height(surface, face, point)
+            if height * height > best:
                 continue
-            least = size * (descent(frame, other, surface, f, n_star, star) - CONE_MARGIN)
-            past_any, past_border, past_part, square = over_triangle(surface, t, height, least, margin, point)
+            least = size * (descent(solid, other, face, vertex) - CONE_MARGIN)
+            past_any, past_border, past_part, square = over_triangle(row, height, least, margin, point)
             if past_any <= 0.0 and height < 0.0 and -height < depth:
                 depth, depth_past, depth_face = -height, past_border, face
             key = square + max(past_part, 0.0) * max(past_part, 0.0)
             if key < best:
                 best, height_best, apart, past, found = key, height, math.sqrt(square), past_part, face
-        node += 1
+        leaf = next_leaf(surface, leaf.after, patch, point, best)
     is_below = depth_face >= 0 and depth * depth < best
-    if is_below and past_depth(frame, other, surface, n_star, star, (point, point), depth, point) <= 0.0:
+    if is_below and past_depth(solid, other, vertex, (point, point), depth, point) <= 0.0:
         return depth_face, -depth, depth_past
     return found, height_best if past <= 0.0 or (height_best < 0.0 and is_convex) else math.hypot(apart, past), past
-
-
-@compiled
-def write_sharp_corner(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    swap: float,
-    surface: Floats,
-    patch: float,
-    place: Vector3,
-    n_star: float,
-    star: Floats,
-    reach: float,
-    is_convex: bool,
-) -> None:
-    """Write the geometry block of a sharp vertex over a patch of the other body's surface.
-
-    The vertex belongs to the first body if ``swap`` is 1, else to the second.  The other arguments are those of
-    :func:`face_under`.
-    """
-    own, other = (a, b) if swap == 1.0 else (b, a)
-    near, far = (POINT_A, POINT_B) if swap == 1.0 else (POINT_B, POINT_A)
-    face, gap, past = face_under(other, own, surface, patch, place, n_star, star, reach, is_convex)
-    sign = 1.0 - 2.0 * swap
-    normal = vector_in_world(other, scaled(sign, vector_at(surface, face_at(surface, face))))
-    out[GAP], out[FEATURE], out[PAST_END] = gap, float(face), past
-    write_vector(out, NORMAL, normal)
-    write_vector(out, near, point_in_world(own, place))
-    write_vector(out, far, minus(vector_at(out, near), scaled(sign * gap, normal)))
-    write_tangent(a, out)
-    write_round(out, SIDE_A if swap == 1.0 else SIDE_B, 0.0)
-    write_flat(out, SIDE_B if swap == 1.0 else SIDE_A)
