@@ -103,7 +103,7 @@ def _gauge_near(pair: Pair, point: Vector3) -> float:
         # relative change of the distance from the axis
         inwards = distance * radial / away if away > 0.0 else 0.0
         point = x - inwards * x, y - inwards * y, z - distance * axial
-    return float(gauge(pair.core, rotated_back(pair.turn, minus(point, pair.place))))
+    return float(gauge(pair.cores.second, rotated_back(pair.cores.turn, minus(point, pair.cores.center))))
 
 
 @compiled
@@ -118,7 +118,7 @@ def _nearest(pair: Pair) -> tuple[NearestPoint, int]:
     are done.  The proofs of an overlap are balls inside of one of the bodies that touch its surface at the contact
     point, with the depth as radius (:func:`_contains_ball`, :mod:`bodies.contacts.smooth.inscribed`).
     """
-    frustum, core, place, size = pair.frustum, pair.core, pair.place, pair.size
+    frustum, core, place, size = pair.frustum, pair.cores.second, pair.cores.center, pair.size
     x, y, z = place
     away = math.sqrt(x * x + y * y)
     # direction from the axis at which the searches start
@@ -131,7 +131,6 @@ def _nearest(pair: Pair) -> tuple[NearestPoint, int]:
             return found, part
     best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
     best_part = LOW_CAP
-    in_core = Cores(pair.point, core, pair.turn, place)
     is_deep, is_sharp = False, max(core[POWERS], core[POWERS + 1]) > 2.0
     for start in range(_TURNS + 4):
         if start == 1:
@@ -165,14 +164,14 @@ def _nearest(pair: Pair) -> tuple[NearestPoint, int]:
                 best, best_part = found, part
                 if found[0] >= -_SHALLOW * size or _contains_ball(pair, part, found):
                     return best, best_part
-                if is_least_overlap(in_core, found):
+                if is_least_overlap(pair.cores, found):
                     return best, best_part
     if (is_sharp and not is_deep and best[0] < 0.0) or math.isnan(best[0]):
         # next to a ridge or a tip of the core the local maximum with the smallest depth may have been missed
         found, part = _on_rims(pair)
         if not math.isnan(found[0]) and not found[0] <= best[0] + _LARGER * size:
             best, best_part = found, part
-    if not best[0] >= 0.0 and not do_overlap(pair.low, frustum[LOW], pair.high, frustum[HIGH], in_core):
+    if not best[0] >= 0.0 and not do_overlap(pair.low, frustum[LOW], pair.high, frustum[HIGH], pair.cores):
         best = math.nan, best[1], best[2]
     return best, best_part
 
@@ -185,7 +184,7 @@ def _on_rims(pair: Pair) -> tuple[NearestPoint, int]:
     an apex.  The gap is nan if no maximum was found.
     """
     frustum = pair.frustum
-    best: NearestPoint = (math.nan, pair.place, (0.0, 0.0, 1.0))
+    best: NearestPoint = (math.nan, pair.cores.center, (0.0, 0.0, 1.0))
     best_part = LOW_RIM
     for part in (LOW_RIM, HIGH_RIM):
         if part == HIGH_RIM and frustum[SIDE] == 0.0:
@@ -193,8 +192,7 @@ def _on_rims(pair: Pair) -> tuple[NearestPoint, int]:
         _, height, up = rim_of(frustum, part)
         # the normals of a rim end at the normal of the side; a disc has none, so that all normals are allowed
         limit, side = (frustum[COS], frustum[SIN], pair.size), up if frustum[SIDE] > 0.0 else 0.0
-        circle, core, turn, center = from_rim(pair, part)
-        gap, p, n = up_hills(circle, core, turn, center, side, limit)
+        gap, p, n = up_hills(from_rim(pair, part), side, limit)
         if not math.isnan(gap) and not gap <= best[0]:
             best, best_part = (gap, (p[0], p[1], p[2] + height), n), part
     return best, best_part
@@ -213,7 +211,7 @@ def evaluate_frustum_smooth(
     place = rotated_back(axes_a, minus(point_in_world(b, vector_at(second, CENTER)), center))
     turn = relative_rotation(axes_a, axes_b)
     size = spread(place) + largest_semi_axis(second) + first[LOW_RADIUS] + first[HIGH] - first[LOW]
-    (core_gap, p, n), part = _nearest(Pair(first, low, high, point, second, turn, place, size))
+    (core_gap, p, n), part = _nearest(Pair(first, low, high, Cores(point, second, turn, place), size))
     gap, normal = core_gap - second[RADIUS] - first[SWEEP], rotated(axes_a, n)
     point_b = plus_scaled(plus(center, rotated(axes_a, p)), -second[RADIUS], normal)
     write_contact(a, out, gap, 0.0, part_number(first, part), normal, point_b, True)

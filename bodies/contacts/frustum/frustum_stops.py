@@ -20,10 +20,10 @@ from nonsmooth.types import Floats
 from ...shapes.frustum import COS, LOW, LOW_RADIUS, SIDE, SIN
 from ...shapes.support_function import Core, is_round
 from ...vectors import Vector3, dot
-from ..smooth.boxy_line import across_line
+from ..smooth.boxy_line import Line, across_line
 from ..smooth.newton import RIGHT, ROUND_OFF, has_ended
 from ..smooth.round_search import round_circle
-from ..smooth.smooth_core import Axes, Cores, NearestPoint, bend, facing_point, rotated_back
+from ..smooth.smooth_core import Cores, NearestPoint, at_place, bend, facing_point, rotated_back
 from ..smooth.smooth_newton import widest_of_round
 from .frustum import FLANK, HIGH_CAP, LOW_CAP, LOW_RIM, along_side, rim_of
 
@@ -52,14 +52,10 @@ class Pair(NamedTuple):
     ----------
     frustum : Floats
         Numbers of the frustum.
-    low, high, point : Floats
-        Its rims and a point, each as a core.
-    core : Floats
-        Core of the smooth body.
-    turn : tuple of float
-        Rotation from the axes of the core to those of the frustum.
-    place : tuple of float
-        Centre of the core [m].
+    low, high : Floats
+        Its rims, each as a core.
+    cores : Cores
+        A point at the centre of the frustum, and the smooth body.
     size : float
         Size of both bodies [m].
     """
@@ -67,24 +63,21 @@ class Pair(NamedTuple):
     frustum: Floats
     low: Core
     high: Core
-    point: Core
-    core: Core
-    turn: Axes
-    place: Vector3
+    cores: Cores
     size: float
 
 
 @compiled
 def lowest_point(pair: Pair, n: Vector3) -> Vector3:
     """Return the smooth body's farthest point in the direction -n [m], its lowest one over a face with the normal n."""
-    return facing_point(pair.core, pair.turn, pair.place, n)[0]
+    return facing_point(pair.cores, n)[0]
 
 
 @compiled
 def from_rim(pair: Pair, part: int) -> Cores:
     """Return the circle of a rim, or the apex, and the smooth body, from the centre of the circle."""
-    (x, y, z), (_, height, _) = pair.place, rim_of(pair.frustum, part)
-    return Cores(pair.low if part == LOW_RIM else pair.high, pair.core, pair.turn, (x, y, z - height))
+    _, smooth, turn, center = at_place(pair.cores, (0.0, 0.0, rim_of(pair.frustum, part)[1]))
+    return Cores(pair.low if part == LOW_RIM else pair.high, smooth, turn, center)
 
 
 @compiled
@@ -170,7 +163,7 @@ def _along_side(pair: Pair, direction: Direction) -> NearestPoint:
     cosine, sine = frustum[COS], frustum[SIN]
     # the side is a cone about the axis, with tangent planes at this distance from the centre
     support = cosine * frustum[LOW_RADIUS] + sine * frustum[LOW]
-    return across_line(pair.core, pair.turn, pair.place, (0.0, 0.0, 1.0), (ex, ey, 0.0), cosine, sine, support)
+    return across_line(pair.cores, Line((0.0, 0.0, 1.0), cosine, sine, support), (ex, ey, 0.0))
 
 
 @compiled
@@ -179,7 +172,7 @@ def on_flank(pair: Pair, direction: Direction) -> NearestPoint:
 
     The gap is nan if there is no maximum.  The search starts at the normal in ``direction``.
     """
-    found = _on_round_flank(pair, direction) if is_round(pair.core) else _along_side(pair, direction)
+    found = _on_round_flank(pair, direction) if is_round(pair.cores.second) else _along_side(pair, direction)
     return _if_on_flank(pair.frustum, ON_BORDER * pair.size, found)
 
 
@@ -190,15 +183,15 @@ def _on_round_flank(pair: Pair, direction: Direction) -> NearestPoint:
     It is the angle of the normal round the axis.  A step that lowers the gap is halved.  The gap is nan without
     convergence.
     """
-    frustum, _, _, _, core, turn, place, size = pair
+    frustum, size = pair.frustum, pair.size
     cosine, sine = frustum[COS], frustum[SIN]
     support = cosine * frustum[LOW_RADIUS] + sine * frustum[LOW]
     # (lx, ly): radial direction of the last accepted normal, with the gap g
-    (ex, ey), (lx, ly), step, p = direction, direction, 0.0, place
+    (ex, ey), (lx, ly), step, p = direction, direction, 0.0, pair.cores.center
     g, before, halvings = -math.inf, math.inf, 0
     for _ in range(_STEPS):
         n = (cosine * ex, cosine * ey, sine)
-        p, bends = facing_point(core, turn, place, n)
+        p, bends = facing_point(pair.cores, n)
         next_gap = dot(n, p) - support
         if next_gap < g - _SEEN * size and halvings < _HALVINGS:
             halvings += 1
@@ -208,7 +201,7 @@ def _on_round_flank(pair: Pair, direction: Direction) -> NearestPoint:
             lx, ly = ex, ey
             # first and second derivative of the gap by the angle
             rate = cosine * (ex * p[1] - ey * p[0])
-            t = rotated_back(turn, (-ey, ex, 0.0))
+            t = rotated_back(pair.cores.turn, (-ey, ex, 0.0))
             second = -cosine * (ex * p[0] + ey * p[1]) - cosine * cosine * bend(bends, t, t)
             residual = abs(rate)
             if has_ended(residual, before, size):
@@ -249,7 +242,7 @@ def on_rim(pair: Pair, direction: Direction, part: int, tilt: float) -> NearestP
     the rim to the core's centre lies between these two normals, the search starts with this direction.
     """
     frustum, (ex, ey) = pair.frustum, direction
-    (radius, height, up), (circle, core, turn, center) = rim_of(frustum, part), from_rim(pair, part)
+    (radius, height, up), cores = rim_of(frustum, part), from_rim(pair, part)
     if radius > 0.0:
         # if the smooth body's lowest point is over the disc in the circle, the largest gap is along the axis
         for sign in (-1.0, 1.0):
@@ -258,13 +251,13 @@ def on_rim(pair: Pair, direction: Direction, part: int, tilt: float) -> NearestP
                 return math.nan, p, (0.0, 0.0, sign)
     is_disc = frustum[SIDE] == 0.0
     # direction from the rim's point to the core's centre, or else the interpolated normal
-    x, y, axial = center
+    x, y, axial = cores.center
     radial = ex * x + ey * y - radius
     if tilt >= 0.0 or radial <= 0.0 or not (is_disc or up * (frustum[COS] * axial - frustum[SIN] * radial) > 0.0):
         tilt = abs(tilt)
         cap = math.copysign(1.0, axial) if is_disc else up
         radial, axial = (1.0 - tilt) * frustum[COS], (1.0 - tilt) * frustum[SIN] + tilt * cap
-    found = widest_of_round(circle, core, turn, center, (radial * ex, radial * ey, axial))
+    found = widest_of_round(cores, (radial * ex, radial * ey, axial))
     return _if_in_cone(pair, part, -ON_BORDER, found)
 
 
@@ -280,11 +273,11 @@ def by_search(pair: Pair, direction: Direction, part: int) -> NearestPoint:
         return _on_end_of_cap(pair, part, near)
     if part == FLANK:
         return _if_on_flank(frustum, near, _along_side(pair, direction))
-    (radius, _, up), (_, core, turn, center) = rim_of(frustum, part), from_rim(pair, part)
+    (radius, height, up), (_, _, z) = rim_of(frustum, part), pair.cores.center
     # a disc has normals on both sides of its plane: take the side of the smooth body's centre
-    side = math.copysign(1.0, center[2]) if frustum[SIDE] == 0.0 else up
+    side = math.copysign(1.0, z - height) if frustum[SIDE] == 0.0 else up
     px, py, _ = lowest_point(pair, (0.0, 0.0, side))
     if px * px + py * py == 0.0:
         px, py = direction
-    found = round_circle(pair.point, core, turn, center, radius, (px, py, 0.0))
+    found = round_circle(at_place(pair.cores, (0.0, 0.0, height)), radius, (px, py, 0.0))
     return _if_in_cone(pair, part, -_NEAR_BORDER, found)

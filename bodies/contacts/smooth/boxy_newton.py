@@ -86,7 +86,7 @@ def gap_by_point(cores: Cores, start: Vector3) -> NearestPoint:
     merit, decrease, last_residual, halvings = math.inf, 0.0, math.inf, 0
     for _ in range(_STEPS):
         p, n, t, u, (k11, k12, k22) = place_on(cores.first, p)
-        q, bends = facing_point(cores.second, cores.turn, cores.center, n)
+        q, bends = facing_point(cores, n)
         d = minus(q, p)
         new_merit = 0.5 * dot(d, d)
         round_off = _SEEN * size * (_SEEN * size + math.sqrt(new_merit))

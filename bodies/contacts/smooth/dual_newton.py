@@ -49,7 +49,7 @@ def gap_by_normal(cores: Cores, axis: Vector3, start: Vector3) -> NearestPoint:
     last_n, step = n, (0.0, 0.0, 0.0)
     for _ in range(_STEPS):
         _, p, bends_a = support_of(cores.first, n)
-        q, bends_b = facing_point(cores.second, cores.turn, cores.center, n)
+        q, bends_b = facing_point(cores, n)
         d = minus(q, p)
         new_g = dot(n, d)
         if new_g < g - _SEEN * size and halvings < _HALVINGS:

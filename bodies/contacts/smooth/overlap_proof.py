@@ -82,5 +82,5 @@ def _support(bodies: tuple[Core, float, Core, float, Cores], direction: Vector3)
     other, q, _ = support_of(high, n)
     if other + n[2] * high_height > height + n[2] * low_height:
         p, low_height = q, high_height
-    q, _ = facing_point(cores.second, cores.turn, cores.center, n)
+    q, _ = facing_point(cores, n)
     return minus(q, (p[0], p[1], p[2] + low_height))

@@ -18,11 +18,11 @@ from typing import TypeAlias
 from nonsmooth.compiled import compiled
 
 from ...shapes.support_function import Core, support_of
-from ...vectors import Vector3, dot, minus, plus, plus_scaled
+from ...vectors import Vector3, dot, plus, plus_scaled, scaled
 from .bracket import Bracket, narrowed, next_place
-from .smooth_core import POINT, Axes, Cores, NearestPoint
+from .smooth_core import Cores, NearestPoint, at_place
 from .smooth_newton import widest_of_round
-from .smooth_starts import Start, gap_along, largest_near, local_maximum, starts_of
+from .smooth_starts import Start, gap_along, local_maximum, starts_of
 
 _FIRST = 1e-3
 """First step round the circle [rad]; each further step is twice as long as the one before."""
@@ -51,21 +51,19 @@ def _sample(cores: Cores, radius: float, angle: float) -> Sample:
     """Return slope and solution for the circle's point at an angle [rad]; the first core is a point."""
     c, s = math.cos(angle), math.sin(angle)
     rim = radius * c, radius * s, 0.0
-    from_rim = minus(cores.center, rim)
-    g, p, n = widest_of_round(cores.first, cores.second, cores.turn, from_rim, from_rim)
+    from_rim = at_place(cores, rim)
+    g, p, n = widest_of_round(from_rim, from_rim.center)
     return n[0] * s - n[1] * c, (g, plus(p, rim), n)
 
 
 @compiled
-def round_circle(point: Core, core: Core, turn: Axes, center: Vector3, radius: float, start: Vector3) -> NearestPoint:
+def round_circle(cores: Cores, radius: float, start: Vector3) -> NearestPoint:
     """Return gap [m], smooth body's point [m] and normal at the least distance of a circle from the body.
 
-    The centre of the circle is the origin, its axis the third axis.  The normal points out of its disc.  The search
-    starts at the direction of ``start`` in the plane of the circle.  The gap is nan if no such point was found.
-    ``point`` is the core of a point, ``core`` the smooth body, with the arguments of
-    :class:`bodies.contacts.smooth.smooth_core.Cores`.
+    The circle is about the third axis of the first core, which is a point at its centre.  The normal points out of its
+    disc.  The search starts at the direction of ``start`` in the plane of the circle.  The gap is nan if no such point
+    was found.
     """
-    cores = Cores(point, core, turn, center)
     begin = math.atan2(start[1], start[0])
     slope, result = _sample(cores, radius, begin)
     if not abs(slope) <= _SAME:
@@ -106,21 +104,20 @@ def _between(cores: Cores, radius: float, sides: Bracket) -> NearestPoint:
 
 
 @compiled
-def along_segment(core: Core, turn: Axes, center: Vector3, e: Vector3, length: float) -> tuple[NearestPoint, float]:
+def along_segment(cores: Cores, e: Vector3, length: float) -> tuple[NearestPoint, float]:
     """Return the least distance of a smooth body from a segment: (gap [m], body's point [m], normal), place on it [m].
 
     The last number is the distance of the segment's nearest point from the start of the segment.  The segment goes
-    from the origin along the unit vector e over ``length`` [m].  The core's centre is ``center`` [m]; ``turn`` is the
-    rotation from the axes of the core to those of the segment.  By bisection: the derivative of the distance along the
-    segment is -n . e.
+    from the first core, a point, along the unit vector e over ``length`` [m].  By bisection: the derivative of the
+    distance along the segment is -n . e.
     """
     low, high, along = 0.0, length, 0.0
-    best: NearestPoint = (math.nan, center, (0.0, 0.0, 1.0))
+    best: NearestPoint = (math.nan, cores.center, (0.0, 0.0, 1.0))
     for i in range(_STEPS):
         # both ends first, then the middle of the remaining interval
         s = 0.0 if i == 0 else length if i == 1 else 0.5 * (low + high)
-        from_point = plus_scaled(center, -s, e)
-        g, p, n = widest_of_round(POINT, core, turn, from_point, from_point)
+        from_point = at_place(cores, scaled(s, e))
+        g, p, n = widest_of_round(from_point, from_point.center)
         cosine = dot(n, e)
         best, along = (g, plus_scaled(p, s, e), n), s
         if g != g or (i == 0 and cosine <= 0.0) or (i == 1 and cosine >= 0.0):
@@ -138,28 +135,25 @@ def along_segment(core: Core, turn: Axes, center: Vector3, e: Vector3, length: f
 
 
 @compiled
-def up_hills(circle: Core, core: Core, turn: Axes, center: Vector3, up: float, limit: Vector3) -> NearestPoint:
+def up_hills(cores: Cores, up: float, limit: Vector3) -> NearestPoint:
     """Return the largest gap of a circle and an overlapping smooth body [m], the body's point [m] and the normal.
 
     Parameters
     ----------
-    circle : Floats
-        The circle as a core; its axis is the third axis.
-    core, turn, center : Floats, Axes, Vector3
-        As in :func:`round_circle`.
+    cores : Cores
+        The circle about the third axis as a core, and the smooth body.
     up : float
         1 or -1: normals are allowed from this direction of the circle's axis to the normal ``limit``; 0 allows all.
     limit : tuple of float
         Radial and axial component of the unit normal at this limit, and size of both bodies [m].
     """
-    best: NearestPoint = (math.nan, center, (0.0, 0.0, 1.0))
-    cores = Cores(circle, core, turn, center)
+    best: NearestPoint = (math.nan, cores.center, (0.0, 0.0, 1.0))
     for start in starts_of(cores):
         top = local_maximum(cores, start, _TOP)
-        solution = widest_of_round(circle, core, turn, center, top[1])
+        solution = widest_of_round(cores, top[1])
         # Newton's method went to a smaller maximum, or did not converge
         if not solution[0] >= top[0] - _TOP * limit[2]:
-            solution = _solution_of(circle, top)
+            solution = _solution_of(cores.first, top)
         g, _, n = solution
         if not _is_in_range(n, up, limit):
             # near a sharp place of the body the gap hardly depends on the normal: try the normal at the limit
@@ -170,7 +164,7 @@ def up_hills(circle: Core, core: Core, turn: Axes, center: Vector3, up: float, l
             gap_at_limit = gap_along(cores, n)
             if not gap_at_limit >= g - _OVER * limit[2]:
                 continue
-            solution = _solution_of(circle, (gap_at_limit, n))
+            solution = _solution_of(cores.first, (gap_at_limit, n))
         if not solution[0] <= best[0]:
             best = solution
     return best

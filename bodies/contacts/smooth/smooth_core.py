@@ -14,7 +14,7 @@ from nonsmooth.engine.memory.blocks import ROTATION
 from nonsmooth.types import Floats
 
 from ...shapes.support_function import Bends, Core, support_of
-from ...vectors import Vector3, divided, norm, opposite, plus, vector_at
+from ...vectors import Vector3, divided, minus, norm, opposite, plus, vector_at
 from ..features.frames import vector_in_world
 
 Axes: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
@@ -48,6 +48,12 @@ POWERS, RADIUS, CENTER, CORE_AXES = 3, 5, 6, 9
 """Indices in the numbers of a core, after its semi-axes: powers, radius, centre, rotation to the axes of the body."""
 POINT = 0.0, 0.0, 0.0, 2.0, 2.0, 0.0
 """Core numbers of a point."""
+
+
+@compiled
+def at_place(cores: Cores, place: Vector3) -> Cores:
+    """Return two cores, the first of which was moved to a place [m]."""
+    return Cores(cores.first, cores.second, cores.turn, minus(cores.center, place))
 
 
 @compiled
@@ -163,11 +169,11 @@ def rotated_back(axes: Axes, v: Vector3) -> Vector3:
 
 
 @compiled
-def facing_point(core: Core, turn: Axes, center: Vector3, n: Vector3) -> tuple[Vector3, Bends]:
+def facing_point(cores: Cores, n: Vector3) -> tuple[Vector3, Bends]:
     """Return the point of the second core that faces the first along n [m], and the second derivative of its support.
 
     It is the farthest point in the direction -n.  Point and n are in the axes of the first core, the point from its
     centre.  The second derivative is in the axes of the second core [m].
     """
-    _, p, h = support_of(core, rotated_back(turn, opposite(n)))
-    return plus(center, rotated(turn, p)), h
+    _, p, h = support_of(cores.second, rotated_back(cores.turn, opposite(n)))
+    return plus(cores.center, rotated(cores.turn, p)), h

@@ -15,7 +15,7 @@ from nonsmooth.types import Floats
 
 from ...shapes.support_function import Core, is_boxy, is_mixed, is_round, support_of
 from ...vectors import Vector3, divided, dot, norm, opposite, plus, plus_scaled
-from .boxy_line import across_line
+from .boxy_line import Line, across_line
 from .boxy_newton import gap_by_point, write_boxy
 from .chart import write_chart
 from .chart_newton import gap_by_chart
@@ -23,7 +23,6 @@ from .dual_newton import gap_by_normal
 from .inscribed import is_least_overlap
 from .overlap_proof import do_overlap
 from .smooth_core import (
-    POINT,
     RADIUS,
     Axes,
     Cores,
@@ -158,18 +157,17 @@ def _from_start(cores: Cores, start: Vector3) -> NearestPoint:
     if is_boxy(cores.first):
         g, p, n = gap_by_point(cores, start)
         return g, plus_scaled(p, g, n), n
-    first, second, turn, center = cores
-    return widest_of_round(first, second, turn, center, start)
+    return widest_of_round(cores, start)
 
 
 @compiled
-def widest_of_round(first: Core, second: Core, turn: Axes, center: Vector3, start: Vector3) -> NearestPoint:
+def widest_of_round(cores: Cores, start: Vector3) -> NearestPoint:
     """Return the largest gap over all directions [m], the second core's point [m] and the normal.
 
     The first core is round; it may be a point or a circle.  The second core is of any kind.  The search starts in the
     direction ``start``, of any length.
     """
-    cores = Cores(first, second, turn, center)
+    first, second, turn, center = cores
     if is_mixed(second):
         return _of_mixed(cores, start)
     if is_boxy(second):
@@ -193,23 +191,22 @@ def _of_mixed(cores: Cores, start: Vector3) -> NearestPoint:
 
 
 @compiled
-def widest_from(core: Core, turn: Axes, center: Vector3, axis: Vector3, start: Vector3) -> NearestPoint:
-    """Return the gap of a line or the origin and a core of any kind [m], the core's point [m] and the normal.
+def widest_from(cores: Cores, axis: Vector3, start: Vector3) -> NearestPoint:
+    """Return the gap of a line or a point and a core of any kind [m], the core's point [m] and the normal.
 
-    The gap is measured from the line through the origin along the unit vector ``axis``, or from the origin if ``axis``
-    is zero.  All vectors are in the axes of the line's body.  ``center`` is the centre of the core [m],
-    ``turn`` the rotation from the core's axes.  The search starts in the direction ``start``, of any length.
+    The first core is the point.  The line goes through it along the unit vector ``axis``; there is no line if ``axis``
+    is zero.  The search starts in the direction ``start``, of any length.
     """
-    if is_round(core):
-        return gap_by_normal(Cores(POINT, core, turn, center), axis, start)
+    if is_round(cores.second):
+        return gap_by_normal(cores, axis, start)
     if axis[0] == 0.0 and axis[1] == 0.0 and axis[2] == 0.0:
-        return widest_of_round(POINT, core, turn, center, start)
+        return widest_of_round(cores, start)
     n = plus_scaled(start, -dot(start, axis), axis)
     length = norm(n)
     if length == 0.0:
         # the start is along the line, so that it gives no normal
-        return math.nan, center, start
-    return across_line(core, turn, center, axis, divided(n, length), 1.0, 0.0, 0.0)
+        return math.nan, cores.center, start
+    return across_line(cores, Line(axis, 1.0, 0.0, 0.0), divided(n, length))
 
 
 @compiled

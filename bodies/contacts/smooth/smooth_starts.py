@@ -135,7 +135,7 @@ def largest_near(cores: Cores, start: Start) -> Start:
         direction = plus_scaled(plus_scaled(n, x, t), y, u)
         length = norm(direction)
         direction = divided(direction, length)
-        q, _ = facing_point(cores.second, cores.turn, cores.center, direction)
+        q, _ = facing_point(cores, direction)
         d = minus(q, support_of(cores.first, direction)[1])
         gap = dot(direction, d)
         if gap > best[0]:

@@ -23,7 +23,7 @@ from ..features.frames import tangent_of
 from ..features.vertex import steepest
 from ..smooth.inscribed import gauge, is_least_overlap
 from ..smooth.round_search import along_segment, up_hills
-from ..smooth.smooth_core import POINT, Cores, rotated_back
+from ..smooth.smooth_core import at_place, rotated_back
 from .smooth_stops import Nearest, SmoothOver, Stop, over_corner, over_edge, over_face
 from .surface_search import FAR, nearest_in_patch
 from .surface_tables import (
@@ -74,12 +74,12 @@ def _stop(body: SmoothOver, kind: int, number: int, is_outward: bool) -> Stop:
         return over_face(body, number, triangle, count)
     if kind == ON_EDGE:
         edge = edge_at(surface, number)
-        start = minus(body.center, vector_at(edge, START))
+        start = minus(body.cores.center, vector_at(edge, START))
         if is_outward and surface[N_FACES] > 0.0:
             start = opposite(plus(vector_at(edge, INTO_FIRST), vector_at(edge, INTO_SECOND)))
         return over_edge(body, edge, start)
     corner = corner_at(surface, number)
-    start = minus(body.center, corner.place)
+    start = minus(body.cores.center, corner.place)
     if is_outward:
         start = (0.0, 0.0, 0.0)
         for i in range(int(corner.n_star)):
@@ -95,15 +95,15 @@ def nearest_of_convex(body: SmoothOver) -> Nearest:
     the core; or if a ball inside of the core proves that no other stop has a larger gap.  Otherwise it is the largest
     gap over the stops of all features.
     """
-    core, first = body.core, _first_valid(body)
+    core, first = body.cores.second, _first_valid(body)
     g, _, n, point = first.stop
     if g >= -_SHALLOW * body.size:
         return first
-    from_point = minus(body.center, point)
+    from_point = at_place(body.cores, point)
     is_shallow = g >= -_DEEP * min(core[0], core[1], core[2])
-    if is_shallow and gauge(core, rotated_back(body.turn, opposite(from_point))) < 1.0:
+    if is_shallow and gauge(core, rotated_back(from_point.turn, opposite(from_point.center))) < 1.0:
         return first
-    if g == g and is_least_overlap(Cores(POINT, core, body.turn, from_point), (g, scaled(g, n), n)):
+    if g == g and is_least_overlap(from_point, (g, scaled(g, n), n)):
         return first
     return _of_segment(body, first) if body.surface[N_FACES] == 0.0 else _of_all(body, first)
 
@@ -117,9 +117,9 @@ def _is_valid(body: SmoothOver, stop: Stop) -> bool:
 @compiled
 def _first_valid(body: SmoothOver) -> Nearest:
     """Return the first valid stop on the way from a feature near to the core's centre, or a failed search."""
-    radius, aim = min(body.core[0], body.core[1], body.core[2]), body.center
+    radius, aim = min(body.cores.second[0], body.cores.second[1], body.cores.second[2]), body.cores.center
     last, part = (0.0, 0.0, 0.0), 1.0
-    kind, number = ON_FACE, _highest_face(body.surface, body.center)
+    kind, number = ON_FACE, _highest_face(body.surface, body.cores.center)
     for _ in range(_STEPS):
         if number < 0:
             found = nearest_in_patch(body.surface, 0.0, aim, FAR)
@@ -177,10 +177,10 @@ def _of_segment(body: SmoothOver, first: Nearest) -> Nearest:
     Otherwise it is the largest gap over valid stops, over the side from ``_ROUND`` directions.  If no stop is valid, it
     is the overlap of the point by bisection, or the largest gap of searches from directions with a large gap at an end.
     """
-    surface, core, turn, center, size = body
+    surface, cores, size = body
     row = edge_at(surface, 0)
     begin, e, length = vector_at(row, START), vector_at(row, ALONG), row[LENGTH]
-    (g, _, n), s = along_segment(core, turn, minus(center, begin), e, length)
+    (g, _, n), s = along_segment(at_place(cores, begin), e, length)
     kind, number = (ON_CORNER, 0) if s == 0.0 else (ON_CORNER, 1) if s == length else (ON_EDGE, 0)
     bisected = Nearest(Stop(g, 0.0, n, plus_scaled(begin, s, e)), kind, number)
     if g >= 0.0:
@@ -198,7 +198,7 @@ def _of_segment(body: SmoothOver, first: Nearest) -> Nearest:
         return bisected
     for end in range(2):
         corner = corner_at(surface, end)
-        g, _, n = up_hills(POINT, core, turn, minus(center, corner.place), 0.0, (1.0, 0.0, size))
+        g, _, n = up_hills(at_place(cores, corner.place), 0.0, (1.0, 0.0, size))
         if steepest(corner, n) <= 0.0 and g == g and not g <= best.stop.gap:
             best = Nearest(Stop(g, 0.0, n, corner.place), ON_CORNER, end)
     return best

@@ -52,12 +52,12 @@ def _least(body: SmoothOver, nearest: Vector3) -> float:
 
     ``nearest`` is the feature's point nearest to the centre of the body [m].
     """
-    way = minus(body.center, nearest)
+    way = minus(body.cores.center, nearest)
     apart = norm(way)
     if apart == 0.0:
         return -math.inf
-    towards = rotated_back(body.turn, divided(opposite(way), apart))
-    return float(apart - support_of(body.core, towards)[0] - body.core[RADIUS])
+    towards = rotated_back(body.cores.turn, divided(opposite(way), apart))
+    return float(apart - support_of(body.cores.second, towards)[0] - body.cores.second[RADIUS])
 
 
 @compiled
@@ -84,7 +84,7 @@ def _evaluate(body: SmoothOver, patch: float, member: int, best: float, plane: S
     inner side of the feature.  ``member`` is the number of the feature in the tree.  ``plane`` is the body's supporting
     plane for the nearest feature so far.
     """
-    surface, center = body.surface, body.center
+    surface, center = body.surface, body.cores.center
     kind, number, row = feature_of(surface, member)
     w = minus(center, vector_at(row, 0))
     excluded = Stop(math.inf, 0.0, (0.0, 0.0, 1.0), w), -math.inf
@@ -121,8 +121,8 @@ def _support_plane(body: SmoothOver, normal: Vector3) -> SupportPlane:
 
     The plane is raised by round-off: features in one plane then get the same bound, and none of them is excluded.
     """
-    p = facing_point(body.core, body.turn, body.center, normal)[0]
-    return normal, dot(normal, p) - body.core[RADIUS] + _SAME * (spread(p) + body.surface[SIZE])
+    p = facing_point(body.cores, normal)[0]
+    return normal, dot(normal, p) - body.cores.second[RADIUS] + _SAME * (spread(p) + body.surface[SIZE])
 
 
 @compiled
@@ -141,8 +141,8 @@ def nearest_of_patch(body: SmoothOver, patch: float, reach: float) -> Nearest:
 
     The size of the ``body`` is the distance of its farthest point from the centre of its core.
     """
-    surface, center, extent = body.surface, body.center, body.size
-    n_triangles, radius = int(surface[N_TRIANGLES]), body.core[RADIUS]
+    surface, center, extent = body.surface, body.cores.center, body.size
+    n_triangles, radius = int(surface[N_TRIANGLES]), body.cores.second[RADIUS]
     round_off = _SAME * (extent + surface[SIZE])
     best_key, least_failed, found = reach, math.inf, 0
     best = Stop(reach + radius, reach, (0.0, 0.0, 1.0), center)

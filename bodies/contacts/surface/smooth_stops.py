@@ -13,11 +13,10 @@ from typing import NamedTuple
 from nonsmooth.compiled import block_at, compiled
 from nonsmooth.types import Floats
 
-from ...shapes.support_function import Core
-from ...vectors import Vector3, dot, minus, plus_scaled, vector_at
+from ...vectors import Vector3, dot, plus_scaled, vector_at
 from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH, START
 from ..features.vertex import Vertex, steepest
-from ..smooth.smooth_core import Axes, facing_point
+from ..smooth.smooth_core import Cores, at_place, facing_point
 from ..smooth.smooth_newton import widest_from
 from .surface_search import distance_from_triangle, past_edges
 from .surface_tables import SIZE, TRIANGLE, face_height, normal_of
@@ -28,12 +27,8 @@ class SmoothOver(NamedTuple):
 
     surface: Floats
     """The surface."""
-    core: Core
-    """Numbers of the core of the body (:mod:`bodies.contacts.smooth.smooth_core`)."""
-    turn: Axes
-    """Rotation from the axes of the core to those of the surface."""
-    center: Vector3
-    """Centre of the core [m]."""
+    cores: Cores
+    """A point at the origin of the surface, and the body."""
     size: float
     """Size of the body [m], the distance past the end of a feature for a normal off its normals by a sine of 1."""
 
@@ -69,7 +64,7 @@ def over_face(body: SmoothOver, face: int, triangle: Floats, count: int) -> Stop
     The distance past the end is the distance of the stop's point from these triangles.
     """
     n = normal_of(body.surface, face)
-    p = facing_point(body.core, body.turn, body.center, n)[0]
+    p = facing_point(body.cores, n)[0]
     height, least = face_height(body.surface, face, p), math.inf
     foot = plus_scaled(p, -height, n)
     for i in range(count):
@@ -91,7 +86,7 @@ def over_edge(body: SmoothOver, edge: Floats, start: Vector3) -> Stop:
     begin, along = vector_at(edge, START), vector_at(edge, ALONG)
     # a start nearly along the edge loses digits in this difference; Newton's method takes its part along the edge again
     start = plus_scaled(start, -dot(start, along), along)
-    g, p, n = widest_from(body.core, body.turn, minus(body.center, begin), along, start)
+    g, p, n = widest_from(at_place(body.cores, begin), along, start)
     s = dot(p, along)
     into = max(dot(n, vector_at(edge, INTO_FIRST)), dot(n, vector_at(edge, INTO_SECOND)))
     return Stop(g, max(max(-s, s - edge[LENGTH]), body.size * into), n, plus_scaled(begin, s, along))
@@ -103,5 +98,5 @@ def over_corner(body: SmoothOver, corner: Vertex, start: Vector3) -> Stop:
 
     The distance past the end is the size times the largest component of the normal along an edge of the corner.
     """
-    g, _, n = widest_from(body.core, body.turn, minus(body.center, corner.place), (0.0, 0.0, 0.0), start)
+    g, _, n = widest_from(at_place(body.cores, corner.place), (0.0, 0.0, 0.0), start)
     return Stop(g, body.size * steepest(corner, n), n, corner.place)

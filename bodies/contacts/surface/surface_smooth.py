@@ -20,7 +20,9 @@ from ..features.frames import point_in_world, point_seen_from, vector_in_world, 
 from ..features.writing import NO_CANDIDATE, write_apart
 from ..smooth.smooth_core import (
     CENTER,
+    POINT,
     RADIUS,
+    Cores,
     axes_in_world,
     axes_of,
     facing_point,
@@ -67,17 +69,18 @@ def evaluate_surface_smooth(
     axes_b, is_convex = axes_in_world(b, second), surface[IS_CONVEX] == 1.0
     center = point_seen_from(a, b, vector_at(second, CENTER))
     turn = relative_rotation(axes_of(a), axes_b)
+    cores = Cores(POINT, second, turn, center)
     if is_convex:
         span = spread(center) + largest_semi_axis(second) + spread(vector_at(edge_at(surface, 0), START))
-        (g, past, n, point), kind, number = nearest_of_convex(SmoothOver(surface, second, turn, center, span))
+        (g, past, n, point), kind, number = nearest_of_convex(SmoothOver(surface, cores, span))
     else:
-        body, reach = SmoothOver(surface, second, turn, center, extent), candidate[3] + surface[SWEEP]
+        body, reach = SmoothOver(surface, cores, extent), candidate[3] + surface[SWEEP]
         (g, past, n, point), kind, number = nearest_of_patch(body, candidate[1], reach)
     gap = g - surface[SWEEP] - second[RADIUS]
     # if there is one patch only, it is the whole surface, which has no end
     out[PAST_END] = past if surface[N_PATCHES] > 1.0 else 0.0
     out[GAP] = gap if is_convex or past <= 0.0 else math.hypot(gap, past)
-    p = facing_point(second, turn, center, n)[0]
+    p = facing_point(cores, n)[0]
     if kind != ON_FACE and not is_round(second):
         # on a flat place of the smooth body the normal does not determine the point: use the surface's point
         p = plus_scaled(point, g, n)
