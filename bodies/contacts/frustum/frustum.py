@@ -66,24 +66,6 @@ def part_number(frustum: Floats, part: int) -> float:
 
 
 @compiled
-def center_in_world(frame: Floats, frustum: Floats) -> Vector3:
-    """Return the centre of a frustum in the world [m]."""
-    return point_in_world(frame, vector_at(frustum, CENTER))
-
-
-@compiled
-def axis_in_world(frame: Floats, frustum: Floats) -> Vector3:
-    """Return the unit axis of a frustum in world axes."""
-    return vector_in_world(frame, (frustum[AXIS], frustum[AXIS + 3], frustum[AXIS + 6]))
-
-
-@compiled
-def on_axis_in_world(frame: Floats, frustum: Floats, height: float) -> Vector3:
-    """Return the point of the axis at ``height`` [m] over the centre of a frustum, in the world [m]."""
-    return plus_scaled(center_in_world(frame, frustum), height, axis_in_world(frame, frustum))
-
-
-@compiled
 def rim_of(frustum: ReadFloats, part: float) -> tuple[float, float, float]:
     """Return radius [m], height over the centre [m] and side, 1 or -1 for an upper or a lower one, of a rim or cap."""
     if part > FLANK:
@@ -102,7 +84,8 @@ class Placed(NamedTuple):
 @compiled
 def placed(frame: Floats, frustum: Floats) -> Placed:
     """Return a frustum in the world."""
-    return Placed(frustum, center_in_world(frame, frustum), axis_in_world(frame, frustum))
+    axis = vector_in_world(frame, (frustum[AXIS], frustum[AXIS + 3], frustum[AXIS + 6]))
+    return Placed(frustum, point_in_world(frame, vector_at(frustum, CENTER)), axis)
 
 
 @compiled
@@ -126,29 +109,41 @@ def along_side(frustum: ReadFloats, along: float, away: float) -> tuple[float, f
 
 
 @compiled
+def over_part(frustum: ReadFloats, part: int, along: float, away: float) -> tuple[float, float, float, float]:
+    """Return height of a point over a cap's plane or the side's cone, distance past its border [m], and the normal.
+
+    The height is positive outside, the distance past the border is negative over the part.  The normal is given by two
+    components: radial, away from the axis, and axial.  The point is given as for :func:`along_side`.  A part that the
+    frustum does not have, the side of a disc or the upper cap of a cone, is infinitely far above the point.
+    """
+    if part == LOW_CAP:
+        return frustum[LOW] - along, away - frustum[LOW_RADIUS], 0.0, -1.0
+    if (frustum[SIDE] if part == FLANK else frustum[HIGH_RADIUS]) == 0.0:
+        return -math.inf, math.inf, 0.0, 1.0
+    if part == HIGH_CAP:
+        return along - frustum[HIGH], away - frustum[HIGH_RADIUS], 0.0, 1.0
+    height, up = along_side(frustum, along, away)
+    return height, max(-up, up - frustum[SIDE]), frustum[COS], frustum[SIN]
+
+
+@compiled
 def nearest_part(frustum: ReadFloats, along: float, away: float) -> tuple[float, float, float, int]:
     """Return the part of a frustum nearest to a point: signed distance [m], outward normal there, and part.
 
-    The distance is negative inside.  The normal is given by two components: radial, away from the axis, and axial.  The
-    point is given as for :func:`along_side`.  The plane through the axis and the point shows a trapezium, whose sides
-    and corners are the parts.
+    The distance is negative inside.  The arguments and the components of the normal are those of :func:`over_part`.  In
+    the plane through the axis and the point, the frustum is a trapezium, whose sides and corners are the parts.
     """
-    # heights of the point over the planes of both caps
-    over_low, over_high = frustum[LOW] - along, along - frustum[HIGH]
+    best, radial, axial, nearest = -math.inf, 0.0, 0.0, FLANK
+    for part in (FLANK, HIGH_CAP, LOW_CAP):
+        height, past, n_radial, n_axial = over_part(frustum, part, along, away)
+        if height > 0.0 and past < 0.0:
+            return height, n_radial, n_axial, part
+        if height > best:
+            best, radial, axial, nearest = height, n_radial, n_axial, part
     over_side, up_side = along_side(frustum, along, away)
-    if over_high > 0.0 and away < frustum[HIGH_RADIUS]:
-        return over_high, 0.0, 1.0, HIGH_CAP
-    if over_low > 0.0 and away < frustum[LOW_RADIUS]:
-        return over_low, 0.0, -1.0, LOW_CAP
-    if over_low <= 0.0 and over_high <= 0.0 and over_side <= 0.0:
-        # inside, the nearest part is the side or a cap: the one with the largest, least negative height
-        if over_side >= over_low and over_side >= over_high:
-            return over_side, frustum[COS], frustum[SIN], FLANK
-        if over_high >= over_low:
-            return over_high, 0.0, 1.0, HIGH_CAP
-        return over_low, 0.0, -1.0, LOW_CAP
-    if 0.0 < up_side < frustum[SIDE]:
-        return over_side, frustum[COS], frustum[SIN], FLANK
+    if best <= 0.0 and over_side <= 0.0:
+        # inside, the largest, least negative height counts
+        return best, radial, axial, nearest
     # a disc has one rim, the lower one
     part = LOW_RIM if up_side <= 0.0 or frustum[SIDE] == 0.0 else HIGH_RIM
     radius, height, _ = rim_of(frustum, part)
@@ -162,24 +157,6 @@ def from_core(frustum: Placed, point: Vector3) -> float:
     """Return the signed distance of a point from the frustum's core [m]; negative inside."""
     along, away, _ = from_axis(frustum, point)
     return float(nearest_part(frustum.numbers, along, away)[0])
-
-
-@compiled
-def over_part(frustum: Floats, part: int, along: float, away: float) -> tuple[float, float, float, float]:
-    """Return height of a point over a cap's plane or the side's cone, distance past its border [m], and the normal.
-
-    The height is positive outside, the distance past the border is negative over the part.  The arguments and the
-    components of the normal are those of :func:`nearest_part`.  A part that the frustum does not have, the side of a
-    disc or the upper cap of a cone, is infinitely far above the point.
-    """
-    if part == LOW_CAP:
-        return frustum[LOW] - along, away - frustum[LOW_RADIUS], 0.0, -1.0
-    if (frustum[SIDE] if part == FLANK else frustum[HIGH_RADIUS]) == 0.0:
-        return -math.inf, math.inf, 0.0, 1.0
-    if part == HIGH_CAP:
-        return along - frustum[HIGH], away - frustum[HIGH_RADIUS], 0.0, 1.0
-    height, up = along_side(frustum, along, away)
-    return height, max(-up, up - frustum[SIDE]), frustum[COS], frustum[SIN]
 
 
 @compiled
@@ -235,14 +212,15 @@ def separation_by_second(first: Placed, second: Placed) -> float:
     caps, and that of the side where the side faces the first centre.  All directions lead from the first frustum to the
     second, so they point into the second one.
     """
-    axis, sine = second.axis, second.numbers[SIN]
+    axis, numbers = second.axis, second.numbers
     _, _, radial = across(minus(second.center, first.center), axis)
     best = max(separation_along(first, second, axis), separation_along(first, second, opposite(axis)))
     best = max(best, separation_along(first, second, radial))
     # the radial direction is the normal of a cylinder's side, not of a cone's
-    if sine != 0.0:
-        inward = plus_scaled(scaled(second.numbers[COS], radial), -sine, axis)
-        best = max(best, separation_along(first, second, inward))
+    if numbers[SIN] != 0.0:
+        best = max(
+            best, separation_along(first, second, plus_scaled(scaled(numbers[COS], radial), -numbers[SIN], axis))
+        )
     return float(best)
 
 

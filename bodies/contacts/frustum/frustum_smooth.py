@@ -49,7 +49,6 @@ from .frustum import (
     LOW_CAP,
     LOW_RIM,
     Spot,
-    center_in_world,
     nearest_part,
     part_names,
     part_number,
@@ -209,13 +208,13 @@ def evaluate_frustum_smooth(
     nearest.  The pair has one contact, which has no boundary.
     """
     axes_a, axes_b = axes_in_world(a, first), axes_in_world(b, second)
-    center = center_in_world(a, first)
-    place = rotated_back(axes_a, minus(point_in_world(b, vector_at(second, CENTER)), center))
+    one = placed(a, first)
+    place = rotated_back(axes_a, minus(point_in_world(b, vector_at(second, CENTER)), one.center))
     turn = relative_rotation(axes_a, axes_b)
     size = spread(place) + largest_semi_axis(second) + first[LOW_RADIUS] + first[HIGH] - first[LOW]
     (core_gap, p, n), part = _nearest(Pair(first, low, high, point, second, turn, place, size))
     gap, normal = core_gap - second[RADIUS] - first[SWEEP], rotated(axes_a, n)
-    point_b = plus_scaled(plus(center, rotated(axes_a, p)), -second[RADIUS], normal)
+    point_b = plus_scaled(plus(one.center, rotated(axes_a, p)), -second[RADIUS], normal)
     write_contact(a, out, gap, 0.0, part_number(first, part), normal, point_b, True)
     write_surface(out, SIDE_B, second, axes_b, rotated_back(turn, opposite(n)), rotated_back(turn, minus(p, place)))
     radial = math.sqrt(n[0] * n[0] + n[1] * n[1])
@@ -224,7 +223,7 @@ def evaluate_frustum_smooth(
     away = max(ex * p[0] + ey * p[1] - core_gap * radial, 0.0)
     if part == LOW_RIM or part == HIGH_RIM:
         away, _, _ = rim_of(first, part)
-    write_spot(out, SIDE_A, Spot(placed(a, first), part, rotated(axes_a, (ex, ey, 0.0)), away), normal)
+    write_spot(out, SIDE_A, Spot(one, part, rotated(axes_a, (ex, ey, 0.0)), away), normal)
 
 
 @final

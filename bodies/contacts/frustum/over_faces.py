@@ -54,8 +54,6 @@ from .frustum import (
     LOW_RIM,
     Placed,
     Spot,
-    axis_in_world,
-    center_in_world,
     from_axis,
     least_height,
     normal_of_part,
@@ -77,7 +75,8 @@ _FLAT = 1e-12
 @compiled
 def frustum_in_surface(a: Floats, b: Floats, frustum: Floats) -> Placed:
     """Return the first body's frustum in the axes of the second body."""
-    return Placed(frustum, point_in_body(b, center_in_world(a, frustum)), vector_in_body(b, axis_in_world(a, frustum)))
+    one = placed(a, frustum)
+    return Placed(frustum, point_in_body(b, one.center), vector_in_body(b, one.axis))
 
 
 class Lowest(NamedTuple):
@@ -242,8 +241,8 @@ def write_apex(a: Floats, out: Floats, frustum: Floats, solid: Solid, patch: flo
     One of the two bodies is rounded.  A corner of the surface has a contact of its own.  ``size`` is the size of the
     bodies [m], ``reach`` the distance of the cores up to which features are searched [m].
     """
-    surface, axis = solid.surface, axis_in_world(a, frustum)
-    apex = plus_scaled(center_in_world(a, frustum), frustum[HIGH], axis)
+    surface, one = solid.surface, placed(a, frustum)
+    apex = plus_scaled(one.center, frustum[HIGH], one.axis)
     place = point_in_body(solid.frame, apex)
     # a segment has no face that could stand for features out of reach
     found = nearest_in_patch(surface, patch, place, reach if surface[N_FACES] > 0.0 else FAR)
@@ -252,7 +251,7 @@ def write_apex(a: Floats, out: Floats, frustum: Floats, solid: Solid, patch: flo
     n = opposite(out_of_surface(solid, found, past, place))
     radius = frustum[FRUSTUM_SWEEP]
     gap = found.distance - radius - surface[SWEEP]
-    side_nearer = past_apex(frustum, found.distance, dot(n, axis), size)
+    side_nearer = past_apex(frustum, found.distance, dot(n, one.axis), size)
     # the sphere of the apex is a part of the cone, so that a large gap is valid as a bound of the bodies' gap
     past = max(past, min(side_nearer, -END * size) if gap > NEAR * size else side_nearer)
     # a corner has a contact of its own
