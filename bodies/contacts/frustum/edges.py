@@ -32,14 +32,14 @@ from ..features.edge_crossing import PARALLEL, sine_off_cone
 from ..features.edge_row import ALONG, LENGTH, START, Edge
 from ..features.ends import CLOSED, gap_past_end
 from ..features.frames import across, point_in_body, point_in_world, vector_in_world
-from ..features.writing import write_principal, write_sweep
+from ..features.writing import write_contact, write_principal, write_sweep
 from ..smooth.smooth_core import Axes, axes_in_world, rotated, rotated_back
 from ..surface.overlap_corners import FLUSH
 from ..surface.surface_search import past_edge, signed_distance
 from ..surface.surface_tables import IS_CONVEX, N_TRIANGLES, SWEEP, edge_at
 from .circle import zero_of_slope
 from .frustum import FLANK, center_in_world, nearest_part, rim_of, write_part
-from .frustum_writing import off_cone_of_rim, past_border, write_contact
+from .frustum_writing import off_cone_of_rim, past_border
 from .over_faces import frustum_in_surface, past_faces
 
 _STEEP = 0.5

@@ -24,7 +24,7 @@ from ...shapes.frustum import COS, HIGH, LOW, LOW_RADIUS, SIDE, SIN, SWEEP, Frus
 from ...shapes.smooth import SmoothShape
 from ...vectors import Vector3, minus, opposite, plus, plus_scaled, vector_at
 from ..features.frames import point_in_world
-from ..features.writing import write_sweep
+from ..features.writing import write_contact, write_sweep
 from ..smooth.inscribed import gauge, is_least_overlap
 from ..smooth.overlap_proof import do_overlap
 from ..smooth.round_search import up_hills
@@ -57,7 +57,6 @@ from .frustum import (
     write_part,
 )
 from .frustum_stops import ON_BORDER, Pair, by_search, from_rim, on_cap, on_flank, on_rim
-from .frustum_writing import write_contact
 
 _SHALLOW = 1e-8
 """Overlap up to which the first local maximum of the gap found is taken as the largest, relative to the size."""

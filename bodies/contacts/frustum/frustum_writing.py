@@ -6,15 +6,14 @@ import math
 from typing import NamedTuple
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, SIDE, SIN, SWEEP
-from ...vectors import Vector3, divided, dot, norm, opposite, plus_scaled, scaled, write_vector
+from ...vectors import Vector3, divided, dot, norm, opposite, plus_scaled, scaled
 from ..features.edge_crossing import CONE_MARGIN
 from ..features.ends import END, REACH, gap_past_end
-from ..features.frames import write_tangent
-from ..features.writing import write_sweep
+from ..features.writing import write_contact, write_sweep
 from .frustum import Placed, separation_by_second, write_part
 
 
@@ -84,22 +83,6 @@ def off_cone_of_rim(frustum: Floats, up: float, radial: float, axial: float) -> 
     rim and -1 for the lower one.
     """
     return float(max(-radial, -off_side(frustum, up, radial, axial)))
-
-
-@compiled
-def write_contact(
-    a: Floats, out: Floats, gap: float, past: float, feature: float, normal: Vector3, point: Vector3, of_second: bool
-) -> None:
-    """Write the geometry block of a contact, except the curvature matrices.
-
-    ``a`` is the frame block of the first body; ``past`` is the distance past the end of the features [m], ``feature``
-    the number of the pair of features.  The contact point in the world is that of the first body, or ``of_second`` [m].
-    """
-    out[GAP], out[FEATURE], out[PAST_END] = gap, feature, past
-    write_vector(out, NORMAL, normal)
-    write_vector(out, POINT_B if of_second else POINT_A, point)
-    write_vector(out, POINT_A if of_second else POINT_B, plus_scaled(point, -gap if of_second else gap, normal))
-    write_tangent(a, out)
 
 
 @compiled

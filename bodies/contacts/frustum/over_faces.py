@@ -18,7 +18,7 @@ from ..features.edge_crossing import CONE_MARGIN
 from ..features.ends import CLOSED, END, NEAR, OPEN, REACH, gap_at_distance, gap_past_end
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.vertex import Vertex, steepest
-from ..features.writing import write_flat, write_round, write_sweep
+from ..features.writing import write_contact, write_flat, write_round, write_sweep
 from ..surface.overlap_corners import FLUSH
 from ..surface.surface_ball import out_of_surface, write_feature
 from ..surface.surface_search import (
@@ -62,7 +62,7 @@ from .frustum import (
     past_of_rim,
     write_part,
 )
-from .frustum_writing import off_cone_of_rim, past_apex, write_contact
+from .frustum_writing import off_cone_of_rim, past_apex
 
 _FLAT = 1e-12
 """Sine of the angle between the planes of rim and face below which the lowest point of the rim is round-off."""
