@@ -33,7 +33,7 @@ from ..features.edge_crossing import PARALLEL, sine_off_cone
 from ..features.edge_row import LENGTH, Edge, direction_of, start_of
 from ..features.ends import CLOSED, gap_past_end
 from ..features.frames import across, point_in_body
-from ..features.writing import write_principal
+from ..features.writing import write_contact, write_principal
 from ..surface.overlap_corners import FLUSH
 from ..surface.surface_search import past_edge, signed_distance
 from ..surface.surface_tables import IS_CONVEX, N_TRIANGLES, SWEEP, Solid, edge_at
@@ -47,7 +47,6 @@ from .frustum import (
     past_border,
     placed,
     rim_of,
-    write_contact,
     write_spot,
 )
 from .over_faces import frustum_in_surface, past_faces

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
 from nonsmooth.types import Floats, ReadFloats
 
 from ...shapes.frustum import (
@@ -32,11 +32,11 @@ from ...shapes.frustum import (
     Point,
     frustum_numbers,
 )
-from ...vectors import Vector3, cross, dot, minus, norm, opposite, plus, plus_scaled, scaled, vector_at, write_vector
+from ...vectors import Vector3, cross, dot, minus, norm, opposite, plus, plus_scaled, scaled, vector_at
 from ..features.edge_crossing import CONE_MARGIN, PARALLEL
 from ..features.ends import END, REACH, gap_past_end
-from ..features.frames import across, point_in_world, vector_in_world, write_tangent
-from ..features.writing import write_flat, write_principal, write_round, write_sweep
+from ..features.frames import across, point_in_world, vector_in_world
+from ..features.writing import write_contact, write_flat, write_principal, write_round, write_sweep
 from ..surface.surface_tables import Numbers
 
 LOW_CAP, LOW_RIM, FLANK, HIGH_RIM, HIGH_CAP = 0, 1, 2, 3, 4
@@ -295,22 +295,6 @@ class Spot(NamedTuple):
 
 
 @compiled
-def write_contact(
-    a: Floats, out: Floats, gap: float, past: float, feature: float, normal: Vector3, point: Vector3, of_second: bool
-) -> None:
-    """Write the geometry block of a contact, except the curvature matrices.
-
-    ``a`` is the frame block of the first body; ``past`` is the distance past the end of the features [m], ``feature``
-    the number of the pair of features.  The contact point in the world is that of the first body, or ``of_second`` [m].
-    """
-    out[GAP], out[FEATURE], out[PAST_END] = gap, feature, past
-    write_vector(out, NORMAL, normal)
-    write_vector(out, POINT_B if of_second else POINT_A, point)
-    write_vector(out, POINT_A if of_second else POINT_B, plus_scaled(point, -gap if of_second else gap, normal))
-    write_tangent(a, out)
-
-
-@compiled
 def write_spot(out: Floats, side: int, spot: Spot, normal: Vector3) -> None:
     """Write the curvature matrices of a rounded frustum at a contact point, with its outward unit ``normal`` there.
 
@@ -393,22 +377,17 @@ def rims_and_tips(first: Frustum, is_sharp: bool) -> Iterator[tuple[float, Point
         yield 0.0, foot, f"foot {i}"
 
 
-def apex_of(first: Frustum) -> Iterator[tuple[Point, Numbers]]:
-    """Yield position [m] and edges (:data:`_N_EDGES` unit vectors down the side) of a cone's apex.
+def tips_of(first: Frustum, is_sharp: bool) -> Iterator[tuple[Point, Numbers]]:
+    """Yield position [m] and unit vectors along :data:`_N_EDGES` edges of each foot and, if ``is_sharp``, of an apex.
 
-    Other frustums, which have no apex, yield nothing.  All vectors are in the body frame; the three components of each
-    edge follow one another.
+    The edges of a foot lie in the plane of the cap, those of an apex on the side.  All vectors are in the body frame;
+    the three components of each edge follow one another.
     """
-    sine, cosine = first.frustum[SIN], first.frustum[COS]
-    for radius, place in first.standing_rims:
-        if radius == 0.0:
-            yield place, _edges_around(first, sine, -cosine)
-
-
-def feet_of(first: Frustum) -> Iterator[tuple[Point, Numbers]]:
-    """Yield position [m] and edges (:data:`_N_EDGES` unit vectors in the cap's plane) of each foot."""
     for foot in first.feet:
         yield foot, _edges_around(first, 1.0, 0.0)
+    for radius, place in first.standing_rims:
+        if radius == 0.0 and is_sharp:
+            yield place, _edges_around(first, first.frustum[SIN], -first.frustum[COS])
 
 
 def _edges_around(first: Frustum, radial: float, axial: float) -> Numbers:

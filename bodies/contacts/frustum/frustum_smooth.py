@@ -24,6 +24,7 @@ from ...shapes.frustum import COS, HIGH, LOW, LOW_RADIUS, SIDE, SIN, SWEEP, Frus
 from ...shapes.smooth import SmoothShape
 from ...vectors import minus, opposite, plus, plus_scaled, vector_at
 from ..features.frames import point_in_world
+from ..features.writing import write_contact
 from ..smooth.inscribed import is_least_overlap
 from ..smooth.overlap_proof import do_overlap
 from ..smooth.round_search import up_hills
@@ -54,7 +55,6 @@ from .frustum import (
     part_number,
     placed,
     rim_of,
-    write_contact,
     write_spot,
 )
 from .frustum_stops import ON_BORDER, Pair, by_search, from_rim, on_cap, on_flank, on_rim

@@ -53,8 +53,6 @@ from .frustum import (
     LOW_CAP,
     LOW_RIM,
     Placed,
-    apex_of,
-    feet_of,
     from_axis,
     from_core,
     nearest_part,
@@ -64,6 +62,7 @@ from .frustum import (
     rim_of,
     rims_of,
     set_back,
+    tips_of,
 )
 from .frustum_sphere import write_frustum_vertex
 from .over_faces import frustum_in_surface, lowest_on_rim, write_apex, write_corner, write_rim, write_tip
@@ -445,8 +444,7 @@ class FrustumSurface(ContactKinematics):
         n_faces, n_edges, n_corners = len(own.planes), len(own.edges), len(own.corners)
         numbers = set_back(first) if n_faces else without_feet(first.frustum)
         is_sharp = numbers[FRUSTUM_SWEEP] + second.sweep == 0.0
-        points = [*feet_of(first), *(apex_of(first) if is_sharp else ())] if n_faces else []
-        rows = [(*place, len(star) // 3, *star) for place, star in points]
+        rows = [(*place, len(star) // 3, *star) for place, star in tips_of(first, is_sharp)] if n_faces else []
         patches = patches_of_faces(own) if is_sharp and own.is_convex else patches_for_ball(own, numbers[FRUSTUM_SWEEP])
         n_rims = len(rims_of(numbers))
         has_side, has_round_apex = numbers[SIDE] > 0.0, numbers[HIGH_RADIUS] == 0.0 and not is_sharp

@@ -19,7 +19,7 @@ from ..features.edge_crossing import CONE_MARGIN
 from ..features.ends import CLOSED, END, NEAR, OPEN, REACH, gap_at_distance, gap_past_end
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.vertex import Vertex, steepest
-from ..features.writing import write_flat, write_round
+from ..features.writing import write_contact, write_flat, write_round
 from ..surface.overlap_corners import FLUSH
 from ..surface.surface_ball import out_of_surface, write_feature
 from ..surface.surface_search import (
@@ -64,7 +64,6 @@ from .frustum import (
     past_of_rim,
     placed,
     rim_of,
-    write_contact,
     write_spot,
 )
 
