@@ -46,8 +46,6 @@ FLATTEST = 1e-9
 
 The speed of this point along the rim is inversely proportional to the sine.  A flatter rim rests on feet.
 """
-RIM_NAMES = {LOW_RIM: "rim 0", HIGH_RIM: "rim 1"}
-"""Words for the rims in the names of features."""
 
 
 def part_names(numbers: Sequence[float]) -> tuple[str, ...]:
@@ -362,19 +360,6 @@ def set_back(first: Frustum) -> Numbers:
 def rims_of(numbers: Numbers) -> tuple[int, ...]:
     """Return the numbers of the rims of a frustum; a disc has one rim, an apex is not a rim."""
     return (LOW_RIM, HIGH_RIM) if numbers[SIDE] > 0.0 and numbers[HIGH_RADIUS] > 0.0 else (LOW_RIM,)
-
-
-def rims_and_tips(first: Frustum, is_sharp: bool) -> Iterator[tuple[float, Point, str]]:
-    """Yield radius [m], centre in the body frame [m] and name of each rim, of the apex and of each foot.
-
-    Apex and feet have the radius 0.  The apex is left out unless ``is_sharp``: if a body of the pair is rounded, the
-    apex is a sphere, which has contacts of its own.
-    """
-    for i, (radius, place) in enumerate(first.standing_rims):
-        if radius > 0.0 or is_sharp:
-            yield radius, place, f"rim {i}" if radius > 0.0 else "apex"
-    for i, foot in enumerate(first.feet):
-        yield 0.0, foot, f"foot {i}"
 
 
 def tips_of(first: Frustum, is_sharp: bool) -> Iterator[tuple[Point, Numbers]]:
