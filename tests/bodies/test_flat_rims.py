@@ -31,7 +31,8 @@ MOST = 2.0
 def _is_of_rim(pair: FeaturePair) -> bool:
     """True if a contact is that of a rim of the first body and a flat face."""
     if pair.evaluator is evaluate_rim_over_cap:
-        return pair.values["radius"] == RADIUS and pair.values["swap"] == 0.0
+        rim = pair.values["rim"]
+        return isinstance(rim, tuple) and rim[0] == RADIUS and pair.values["swap"] == 0.0
     candidate = pair.values.get("candidate", (0.0,))
     return isinstance(candidate, tuple) and candidate[0] == RIM
 

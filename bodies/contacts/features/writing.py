@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import (
+    FEATURE,
     GAP,
     NORMAL,
     PAIR,
@@ -114,6 +115,22 @@ def write_apart(a: Floats, out: Floats, size: float) -> None:
     write_vector(out, POINT_B, plus_scaled(vector_at(a, POSITION), out[GAP], vector_at(out, NORMAL)))
     write_flat(out, SIDE_A)
     write_round(out, SIDE_B, 0.0)
+
+
+@compiled
+def write_contact(
+    a: Floats, out: Floats, gap: float, past: float, feature: float, normal: Vector3, point: Vector3, of_second: bool
+) -> None:
+    """Write the geometry block of a contact, except the curvature matrices.
+
+    ``a`` is the frame block of the first body; ``past`` is the distance past the end of the features [m], ``feature``
+    the number of the pair of features.  The contact point in the world is that of the first body, or ``of_second`` [m].
+    """
+    out[GAP], out[FEATURE], out[PAST_END] = gap, feature, past
+    write_vector(out, NORMAL, normal)
+    write_vector(out, POINT_B if of_second else POINT_A, point)
+    write_vector(out, POINT_A if of_second else POINT_B, plus_scaled(point, -gap if of_second else gap, normal))
+    write_tangent(a, out)
 
 
 @compiled

@@ -16,7 +16,7 @@ from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus
 from ..features.edge_crossing import PARALLEL, least_round_sine
 from ..features.ends import CLOSED, REACH
 from ..features.frames import across, tangent_of
-from ..smooth.smooth_core import Axes, axes_in_world, rotated, rotated_back
+from ..smooth.smooth_core import Axes, axes_in_world, rotated_back
 from .circle import least_sample, zero_of_slope
 from .frustum import (
     FLANK,
@@ -24,6 +24,7 @@ from .frustum import (
     Placed,
     Spot,
     along_side,
+    normal_of_part,
     off_cone_of_rim,
     off_side,
     past_border,
@@ -197,6 +198,12 @@ def _directions(g: Vector3, h: Vector3, angle: float) -> tuple[Vector3, Vector3]
 
 
 @compiled
+def _seen_along(axes: Axes, radius: float, middle: Vector3, g: Vector3, h: Vector3) -> _Circle:
+    """Return a circle in other axes; its vectors are given in the world."""
+    return _Circle(radius, rotated_back(axes, middle), rotated_back(axes, g), rotated_back(axes, h))
+
+
+@compiled
 def _about_axis(circle: _Circle, angle: float) -> tuple[Vector3, Vector3]:
     """Return distance from the third axis and third coordinate [m] of a circle's point at an angle.
 
@@ -237,14 +244,6 @@ def _squared_distance(given: tuple[_Circle, float], angle: float) -> tuple[float
 
 
 @compiled
-def _rim_seen(own: Placed, rim: float, other: Placed, axes: Axes) -> tuple[Vector3, Vector3]:
-    """Return the centre of a rim of the frustum ``own`` [m] and its axis, from ``other`` and in its ``axes``."""
-    _, height, _ = rim_of(own.numbers, rim)
-    axis = rotated_back(axes, own.axis)
-    return plus_scaled(rotated_back(axes, minus(own.center, other.center)), height, axis), axis
-
-
-@compiled
 def _lowest_angle(circle: _Circle, frustum: Floats, low: float, high: float) -> tuple[float, bool]:
     """Return the angle between ``low`` and ``high`` at a rim's lowest point over a side [rad], and a check.
 
@@ -276,32 +275,35 @@ def evaluate_rim_over_side(
     """
     own, other = (b, a) if swap == 1.0 else (a, b)
     one, two, axes = placed(own, first), placed(other, second), axes_in_world(other, second)
-    radius, _, up = rim_of(first, rim)
-    middle, axis = _rim_seen(one, rim, two, axes)
-    # unit vectors h, along the projection of the side's axis on the plane of the rim, and g, perpendicular to h
-    _, _, h = across((0.0, 0.0, 1.0), axis)
-    plane_to_axis = math.asin(min(abs(axis[2]), 1.0))
+    radius, height, up = rim_of(first, rim)
+    # in world axes: centre of the rim from that of the side; unit vectors h, along the projection of the side's axis on
+    # the plane of the rim, and g, perpendicular to h
+    middle = minus(plus_scaled(one.center, height, one.axis), two.center)
+    _, _, h = across(two.axis, one.axis)
+    g, h = cross(h, one.axis), scaled(half, h)
+    plane_to_axis = math.asin(min(abs(dot(one.axis, two.axis)), 1.0))
     is_steep = plane_to_axis > _STEEP and abs(plane_to_axis - math.asin(second[SIN])) > _STEEP
-    g, h = cross(h, axis), scaled(half, h)
     # the apex, a rim of radius 0, needs no search
     angle, has_minimum = 0.0, True
     if radius > 0.0:
         low, high = 0.0, math.pi
         if is_steep:
             # search the whole rim; the interval begins at the point farthest from the side's axis
-            low = math.atan2(middle[0] * h[0] + middle[1] * h[1], middle[0] * g[0] + middle[1] * g[1])
+            _, _, to_middle = across(middle, two.axis)
+            low = math.atan2(dot(to_middle, h), dot(to_middle, g))
             high = low + 2.0 * math.pi
-        angle, has_minimum = _lowest_angle(_Circle(radius, middle, g, h), second, low, high)
-    outward, _ = _directions(g, h, angle)
-    point = plus_scaled(middle, radius, outward)
-    away = math.sqrt(point[0] * point[0] + point[1] * point[1])
-    ex, ey = (point[0] / away, point[1] / away) if away > 0.0 else (1.0, 0.0)
-    cosine, sine = second[COS], second[SIN]
-    gap, up_side = along_side(second, point[2], away)
-    n = (-cosine * ex, -cosine * ey, -sine)
+        angle, has_minimum = _lowest_angle(_seen_along(axes, radius, middle, g, h), second, low, high)
+    of_rim, _ = _directions(g, h, angle)
+    point = plus_scaled(middle, radius, of_rim)
+    along, away, of_side = across(point, two.axis)
+    if away < REACH * size:
+        # next to the axis all directions are radial: take the one for which the normal belongs to the rim
+        _, _, of_side = across(opposite(of_rim), two.axis)
+    gap, up_side = along_side(second, along, away)
+    n = opposite(normal_of_part(two.axis, of_side, second[COS], second[SIN]))
     # check that the contact normal is a normal of the rim
-    axial = dot(n, axis)
-    radial = dot(n, outward) if radius > 0.0 else math.sqrt(max(1.0 - axial * axial, 0.0))
+    axial = dot(n, one.axis)
+    radial = dot(n, of_rim) if radius > 0.0 else math.sqrt(max(1.0 - axial * axial, 0.0))
     past_ends = max(-up_side, up_side - second[SIDE])
     if first[SWEEP] + second[SWEEP] > 0.0:
         # extend the side past its end, until the contact of both rims is valid
@@ -309,12 +311,13 @@ def evaluate_rim_over_side(
     if not has_minimum or (is_steep and half < 0.0):
         # a steep pose has one minimum: that contact belongs to one half only
         past_ends = size
-    normal, to_point = rotated(axes, n), rotated(axes, point)
     past = past_border(past_ends, off_cone_of_rim(first, up, radial, axial), size)
     past = max(past, past_depth(one, two, gap, size))
-    of_rim = Spot(one, int(rim), rotated(axes, outward), radius)
-    of_side = Spot(two, FLANK, to_point, max(away - gap * cosine, 0.0))
-    write_pair(a, out, swap, gap, past, normal, plus(two.center, to_point), of_rim, of_side)
+    rim_spot, side_spot = (
+        Spot(one, int(rim), of_rim, radius),
+        Spot(two, FLANK, of_side, max(away - gap * second[COS], 0.0)),
+    )
+    write_pair(a, out, swap, gap, past, n, plus(two.center, point), rim_spot, side_spot)
 
 
 @compiled
@@ -391,7 +394,7 @@ def evaluate_rims(
     middle = minus(plus_scaled(one.center, height, one.axis), other_center)
     _, _, g = across(opposite(middle), one.axis)
     h = scaled(half, cross(one.axis, g))
-    circle = _Circle(radius, rotated_back(axes, middle), rotated_back(axes, g), rotated_back(axes, h))
+    circle = _seen_along(axes, radius, middle, g, h)
     angle = _nearest_angle(circle, other_radius)
     is_round = first[SWEEP] + second[SWEEP] > 0.0
     are_discs = not is_round and first[SIDE] == 0.0 and second[SIDE] == 0.0

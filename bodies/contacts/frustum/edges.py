@@ -33,7 +33,7 @@ from ..features.edge_crossing import PARALLEL, sine_off_cone
 from ..features.edge_row import LENGTH, Edge, direction_of, start_of
 from ..features.ends import CLOSED, gap_past_end
 from ..features.frames import across, point_in_body
-from ..features.writing import write_principal
+from ..features.writing import write_contact, write_principal
 from ..surface.overlap_corners import FLUSH
 from ..surface.surface_search import past_edge, signed_distance
 from ..surface.surface_tables import IS_CONVEX, N_TRIANGLES, SWEEP, Solid, edge_at
@@ -47,7 +47,6 @@ from .frustum import (
     past_border,
     placed,
     rim_of,
-    write_contact,
     write_spot,
 )
 from .over_faces import frustum_in_surface, past_faces
@@ -109,14 +108,10 @@ def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[f
         past_evolute = max(math.sqrt(sum_of_squares * sum_of_squares * sum_of_squares) - focal_square, 0.0)
         # F / (sin cos) is least at this angle; if the least value is positive, F has no zero, else the zero is above it
         low = math.atan2(third_q, third_p)
-    angle, high = low, 0.5 * math.pi
+    high = 0.5 * math.pi
+    angle = low
     if past_evolute == 0.0:
-        # start at the direction of the point; for y <= 0, at the foot for y = 0
-        angle = math.atan2(max(q, 0.0) * semi_x, p * semi_y) if p + max(q, 0.0) > 0.0 else high
-        if q <= 0.0:
-            angle = math.acos(min(p / focal_square, 1.0)) if focal_square > 0.0 else high
-        angle = min(max(angle, low), high)
-        angle = zero_of_slope(_normal_of_ellipse, (p, q, focal_square), angle, low, high)
+        angle = zero_of_slope(_normal_of_ellipse, (p, q, focal_square), 0.5 * (low + high), low, high)
     c, s = math.cos(angle), math.sin(angle)
     return (c if x >= 0.0 else -c), s, past_evolute
 

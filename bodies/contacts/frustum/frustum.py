@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
 from nonsmooth.types import Floats, ReadFloats
 
 from ...shapes.frustum import (
@@ -32,11 +32,11 @@ from ...shapes.frustum import (
     Point,
     frustum_numbers,
 )
-from ...vectors import Vector3, cross, dot, minus, norm, opposite, plus, plus_scaled, scaled, vector_at, write_vector
+from ...vectors import Vector3, cross, dot, minus, norm, opposite, plus, plus_scaled, scaled, vector_at
 from ..features.edge_crossing import CONE_MARGIN, PARALLEL
 from ..features.ends import END, REACH, gap_past_end
-from ..features.frames import across, point_in_world, vector_in_world, write_tangent
-from ..features.writing import write_flat, write_principal, write_round, write_sweep
+from ..features.frames import across, point_in_world, vector_in_world
+from ..features.writing import write_contact, write_flat, write_principal, write_round, write_sweep
 from ..surface.surface_tables import Numbers
 
 LOW_CAP, LOW_RIM, FLANK, HIGH_RIM, HIGH_CAP = 0, 1, 2, 3, 4
@@ -46,8 +46,6 @@ FLATTEST = 1e-9
 
 The speed of this point along the rim is inversely proportional to the sine.  A flatter rim rests on feet.
 """
-RIM_NAMES = {LOW_RIM: "rim 0", HIGH_RIM: "rim 1"}
-"""Words for the rims in the names of features."""
 
 
 def part_names(numbers: Sequence[float]) -> tuple[str, ...]:
@@ -63,24 +61,6 @@ def part_names(numbers: Sequence[float]) -> tuple[str, ...]:
 def part_number(frustum: Floats, part: int) -> float:
     """Return the index of a part in :func:`part_names`; the upper face of a disc, which has one rim, is 2, not 4."""
     return 2.0 if frustum[SIDE] == 0.0 and part == HIGH_CAP else float(part)
-
-
-@compiled
-def center_in_world(frame: Floats, frustum: Floats) -> Vector3:
-    """Return the centre of a frustum in the world [m]."""
-    return point_in_world(frame, vector_at(frustum, CENTER))
-
-
-@compiled
-def axis_in_world(frame: Floats, frustum: Floats) -> Vector3:
-    """Return the unit axis of a frustum in world axes."""
-    return vector_in_world(frame, (frustum[AXIS], frustum[AXIS + 3], frustum[AXIS + 6]))
-
-
-@compiled
-def on_axis_in_world(frame: Floats, frustum: Floats, height: float) -> Vector3:
-    """Return the point of the axis at ``height`` [m] over the centre of a frustum, in the world [m]."""
-    return plus_scaled(center_in_world(frame, frustum), height, axis_in_world(frame, frustum))
 
 
 @compiled
@@ -102,7 +82,8 @@ class Placed(NamedTuple):
 @compiled
 def placed(frame: Floats, frustum: Floats) -> Placed:
     """Return a frustum in the world."""
-    return Placed(frustum, center_in_world(frame, frustum), axis_in_world(frame, frustum))
+    axis = vector_in_world(frame, (frustum[AXIS], frustum[AXIS + 3], frustum[AXIS + 6]))
+    return Placed(frustum, point_in_world(frame, vector_at(frustum, CENTER)), axis)
 
 
 @compiled
@@ -126,29 +107,41 @@ def along_side(frustum: ReadFloats, along: float, away: float) -> tuple[float, f
 
 
 @compiled
+def over_part(frustum: ReadFloats, part: int, along: float, away: float) -> tuple[float, float, float, float]:
+    """Return height of a point over a cap's plane or the side's cone, distance past its border [m], and the normal.
+
+    The height is positive outside, the distance past the border is negative over the part.  The normal is given by two
+    components: radial, away from the axis, and axial.  The point is given as for :func:`along_side`.  A part that the
+    frustum does not have, the side of a disc or the upper cap of a cone, is infinitely far above the point.
+    """
+    if part == LOW_CAP:
+        return frustum[LOW] - along, away - frustum[LOW_RADIUS], 0.0, -1.0
+    if (frustum[SIDE] if part == FLANK else frustum[HIGH_RADIUS]) == 0.0:
+        return -math.inf, math.inf, 0.0, 1.0
+    if part == HIGH_CAP:
+        return along - frustum[HIGH], away - frustum[HIGH_RADIUS], 0.0, 1.0
+    height, up = along_side(frustum, along, away)
+    return height, max(-up, up - frustum[SIDE]), frustum[COS], frustum[SIN]
+
+
+@compiled
 def nearest_part(frustum: ReadFloats, along: float, away: float) -> tuple[float, float, float, int]:
     """Return the part of a frustum nearest to a point: signed distance [m], outward normal there, and part.
 
-    The distance is negative inside.  The normal is given by two components: radial, away from the axis, and axial.  The
-    point is given as for :func:`along_side`.  The plane through the axis and the point shows a trapezium, whose sides
-    and corners are the parts.
+    The distance is negative inside.  The arguments and the components of the normal are those of :func:`over_part`.  In
+    the plane through the axis and the point, the frustum is a trapezium, whose sides and corners are the parts.
     """
-    # heights of the point over the planes of both caps
-    over_low, over_high = frustum[LOW] - along, along - frustum[HIGH]
+    best, radial, axial, nearest = -math.inf, 0.0, 0.0, FLANK
+    for part in (FLANK, HIGH_CAP, LOW_CAP):
+        height, past, n_radial, n_axial = over_part(frustum, part, along, away)
+        if height > 0.0 and past < 0.0:
+            return height, n_radial, n_axial, part
+        if height > best:
+            best, radial, axial, nearest = height, n_radial, n_axial, part
     over_side, up_side = along_side(frustum, along, away)
-    if over_high > 0.0 and away < frustum[HIGH_RADIUS]:
-        return over_high, 0.0, 1.0, HIGH_CAP
-    if over_low > 0.0 and away < frustum[LOW_RADIUS]:
-        return over_low, 0.0, -1.0, LOW_CAP
-    if over_low <= 0.0 and over_high <= 0.0 and over_side <= 0.0:
-        # inside, the nearest part is the side or a cap: the one with the largest, least negative height
-        if over_side >= over_low and over_side >= over_high:
-            return over_side, frustum[COS], frustum[SIN], FLANK
-        if over_high >= over_low:
-            return over_high, 0.0, 1.0, HIGH_CAP
-        return over_low, 0.0, -1.0, LOW_CAP
-    if 0.0 < up_side < frustum[SIDE]:
-        return over_side, frustum[COS], frustum[SIN], FLANK
+    if best <= 0.0 and over_side <= 0.0:
+        # inside, the largest, least negative height counts
+        return best, radial, axial, nearest
     # a disc has one rim, the lower one
     part = LOW_RIM if up_side <= 0.0 or frustum[SIDE] == 0.0 else HIGH_RIM
     radius, height, _ = rim_of(frustum, part)
@@ -162,24 +155,6 @@ def from_core(frustum: Placed, point: Vector3) -> float:
     """Return the signed distance of a point from the frustum's core [m]; negative inside."""
     along, away, _ = from_axis(frustum, point)
     return float(nearest_part(frustum.numbers, along, away)[0])
-
-
-@compiled
-def over_part(frustum: Floats, part: int, along: float, away: float) -> tuple[float, float, float, float]:
-    """Return height of a point over a cap's plane or the side's cone, distance past its border [m], and the normal.
-
-    The height is positive outside, the distance past the border is negative over the part.  The arguments and the
-    components of the normal are those of :func:`nearest_part`.  A part that the frustum does not have, the side of a
-    disc or the upper cap of a cone, is infinitely far above the point.
-    """
-    if part == LOW_CAP:
-        return frustum[LOW] - along, away - frustum[LOW_RADIUS], 0.0, -1.0
-    if (frustum[SIDE] if part == FLANK else frustum[HIGH_RADIUS]) == 0.0:
-        return -math.inf, math.inf, 0.0, 1.0
-    if part == HIGH_CAP:
-        return along - frustum[HIGH], away - frustum[HIGH_RADIUS], 0.0, 1.0
-    height, up = along_side(frustum, along, away)
-    return height, max(-up, up - frustum[SIDE]), frustum[COS], frustum[SIN]
 
 
 @compiled
@@ -235,14 +210,15 @@ def separation_by_second(first: Placed, second: Placed) -> float:
     caps, and that of the side where the side faces the first centre.  All directions lead from the first frustum to the
     second, so they point into the second one.
     """
-    axis, sine = second.axis, second.numbers[SIN]
+    axis, numbers = second.axis, second.numbers
     _, _, radial = across(minus(second.center, first.center), axis)
     best = max(separation_along(first, second, axis), separation_along(first, second, opposite(axis)))
     best = max(best, separation_along(first, second, radial))
     # the radial direction is the normal of a cylinder's side, not of a cone's
-    if sine != 0.0:
-        inward = plus_scaled(scaled(second.numbers[COS], radial), -sine, axis)
-        best = max(best, separation_along(first, second, inward))
+    if numbers[SIN] != 0.0:
+        best = max(
+            best, separation_along(first, second, plus_scaled(scaled(numbers[COS], radial), -numbers[SIN], axis))
+        )
     return float(best)
 
 
@@ -317,22 +293,6 @@ class Spot(NamedTuple):
 
 
 @compiled
-def write_contact(
-    a: Floats, out: Floats, gap: float, past: float, feature: float, normal: Vector3, point: Vector3, of_second: bool
-) -> None:
-    """Write the geometry block of a contact, except the curvature matrices.
-
-    ``a`` is the frame block of the first body; ``past`` is the distance past the end of the features [m], ``feature``
-    the number of the pair of features.  The contact point in the world is that of the first body, or ``of_second`` [m].
-    """
-    out[GAP], out[FEATURE], out[PAST_END] = gap, feature, past
-    write_vector(out, NORMAL, normal)
-    write_vector(out, POINT_B if of_second else POINT_A, point)
-    write_vector(out, POINT_A if of_second else POINT_B, plus_scaled(point, -gap if of_second else gap, normal))
-    write_tangent(a, out)
-
-
-@compiled
 def write_spot(out: Floats, side: int, spot: Spot, normal: Vector3) -> None:
     """Write the curvature matrices of a rounded frustum at a contact point, with its outward unit ``normal`` there.
 
@@ -402,35 +362,17 @@ def rims_of(numbers: Numbers) -> tuple[int, ...]:
     return (LOW_RIM, HIGH_RIM) if numbers[SIDE] > 0.0 and numbers[HIGH_RADIUS] > 0.0 else (LOW_RIM,)
 
 
-def rims_and_tips(first: Frustum, is_sharp: bool) -> Iterator[tuple[float, Point, str]]:
-    """Yield radius [m], centre in the body frame [m] and name of each rim, of the apex and of each foot.
+def tips_of(first: Frustum, is_sharp: bool) -> Iterator[tuple[Point, Numbers]]:
+    """Yield position [m] and unit vectors along :data:`_N_EDGES` edges of each foot and, if ``is_sharp``, of an apex.
 
-    Apex and feet have the radius 0.  The apex is left out unless ``is_sharp``: if a body of the pair is rounded, the
-    apex is a sphere, which has contacts of its own.
+    The edges of a foot lie in the plane of the cap, those of an apex on the side.  All vectors are in the body frame;
+    the three components of each edge follow one another.
     """
-    for i, (radius, place) in enumerate(first.standing_rims):
-        if radius > 0.0 or is_sharp:
-            yield radius, place, f"rim {i}" if radius > 0.0 else "apex"
-    for i, foot in enumerate(first.feet):
-        yield 0.0, foot, f"foot {i}"
-
-
-def apex_of(first: Frustum) -> Iterator[tuple[Point, Numbers]]:
-    """Yield position [m] and edges (:data:`_N_EDGES` unit vectors down the side) of a cone's apex.
-
-    Other frustums, which have no apex, yield nothing.  All vectors are in the body frame; the three components of each
-    edge follow one another.
-    """
-    sine, cosine = first.frustum[SIN], first.frustum[COS]
-    for radius, place in first.standing_rims:
-        if radius == 0.0:
-            yield place, _edges_around(first, sine, -cosine)
-
-
-def feet_of(first: Frustum) -> Iterator[tuple[Point, Numbers]]:
-    """Yield position [m] and edges (:data:`_N_EDGES` unit vectors in the cap's plane) of each foot."""
     for foot in first.feet:
         yield foot, _edges_around(first, 1.0, 0.0)
+    for radius, place in first.standing_rims:
+        if radius == 0.0 and is_sharp:
+            yield place, _edges_around(first, first.frustum[SIN], -first.frustum[COS])
 
 
 def _edges_around(first: Frustum, radial: float, axial: float) -> Numbers:

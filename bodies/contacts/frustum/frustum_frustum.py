@@ -13,7 +13,7 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...shapes.cylinder import Cylinder
-from ...shapes.frustum import FEET, HIGH, HIGH_RADIUS, LOW, LOW_RADIUS, SIDE, SWEEP, Frustum, without_feet
+from ...shapes.frustum import FEET, HIGH, HIGH_RADIUS, LOW, LOW_RADIUS, SIDE, SWEEP, Frustum, Point, without_feet
 from ...vectors import Vector3, dot, minus, norm, plus_scaled, scaled, vector_at
 from ..features.ends import CLOSED, END, NEAR, REACH
 from ..features.frames import across, point_in_world
@@ -24,7 +24,6 @@ from .frustum import (
     HIGH_RIM,
     LOW_CAP,
     LOW_RIM,
-    RIM_NAMES,
     Placed,
     Spot,
     along_side,
@@ -38,13 +37,15 @@ from .frustum import (
     past_of_rim,
     placed,
     rim_of,
-    rims_and_tips,
     rims_of,
     separation_along,
     separation_by_second,
     set_back,
     write_pair,
 )
+
+_RIM_NAMES = {LOW_RIM: "rim 0", HIGH_RIM: "rim 1"}
+"""Words for the rims in the names of features."""
 
 
 @compiled
@@ -86,28 +87,19 @@ def _past_disc(first: Placed, second: Placed, up: float, gap: float, p: Vector3,
 
 
 def evaluate_rim_over_cap(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    swap: float,
-    first: Floats,
-    radius: float,
-    center: Floats,
-    second: Floats,
-    cap: float,
-    size: float,
+    a: Floats, b: Floats, out: Floats, swap: float, first: Floats, rim: Floats, second: Floats, cap: float, size: float
 ) -> None:
     """Write the geometry block of a cap of one body and the point of a rim of the other that is lowest over the cap.
 
     Feet and apices are rims of radius 0.  The contact ends at the border of the cap.  ``first`` is the body with the
-    rim, the second body if ``swap`` is 1; ``second`` is the body with the cap.  The rim has a ``radius`` [m] and the
-    ``center`` in its body frame [m].  ``cap`` is 0 for the lower cap, 4 for the upper one.  ``size`` is the size of the
-    bodies [m].
+    rim, the second body if ``swap`` is 1; ``second`` is the body with the cap.  ``rim`` holds the radius of the rim [m]
+    and its centre in its body frame [m].  ``cap`` is 0 for the lower cap, 4 for the upper one.  ``size`` is the size of
+    the bodies [m].
     """
     own, other = (b, a) if swap == 1.0 else (a, b)
-    one, two = placed(own, first), placed(other, second)
+    one, two, radius = placed(own, first), placed(other, second), rim[0]
     cap_radius, height, up = rim_of(second, cap)
-    n, middle = scaled(-up, two.axis), point_in_world(own, vector_at(center, 0))
+    n, middle = scaled(-up, two.axis), point_in_world(own, vector_at(rim, 1))
     _, sine, outward = across(n, one.axis)
     # sharp rims that are almost aligned do not open each other's contacts; rounded ones roll over the border
     margin = CLOSED if first[SWEEP] + second[SWEEP] == 0.0 else REACH
@@ -196,21 +188,31 @@ def _names(swap: float, own: str, other: str) -> str:
     return f"{other} and {own}" if swap else f"{own} and {other}"
 
 
+def _rims_and_tips(first: Frustum, is_sharp: bool) -> Iterator[tuple[float, Point, str]]:
+    """Yield radius [m], centre in the body frame [m] and name of each rim, of the apex and of each foot.
+
+    Apex and feet have the radius 0.  The apex is left out unless ``is_sharp``: if a body of the pair is rounded, the
+    apex is a sphere, which has contacts of its own.
+    """
+    for i, (radius, place) in enumerate(first.standing_rims):
+        if radius > 0.0 or is_sharp:
+            yield radius, place, f"rim {i}" if radius > 0.0 else "apex"
+    for i, foot in enumerate(first.feet):
+        yield 0.0, foot, f"foot {i}"
+
+
 def _over_caps(first: Frustum, second: Frustum) -> Iterator[FeaturePair]:
     """Yield the contacts of rims, apices and feet of either body with the caps of the other."""
     size, is_sharp = 2.0 * max(first.extent, second.extent), first.rounding + second.rounding == 0.0
     for swap, own, other in ((0.0, first, second), (1.0, second, first)):
         inner = set_back(other)
-        for radius, center, name in rims_and_tips(own, is_sharp):
+        for radius, center, name in _rims_and_tips(own, is_sharp):
             # a foot touches the cap itself. The cap for a rim is set back, so that feet of either body touch first
             numbers = other.frustum if name.startswith("foot") else inner
-            values: dict[str, Value] = {"swap": swap, "first": own.frustum, "radius": radius, "center": center}
+            values: dict[str, Value] = {"swap": swap, "first": own.frustum, "rim": (radius, *center), "second": numbers}
             for cap, sign in ((LOW_CAP, "-"), (HIGH_CAP, "+"))[: 2 if other.frustum[HIGH_RADIUS] > 0.0 else 1]:
-                yield FeaturePair(
-                    evaluate_rim_over_cap,
-                    {**values, "second": numbers, "cap": float(cap), "size": size},
-                    (_names(swap, name, f"cap {sign}"),),
-                )
+                names = (_names(swap, name, f"cap {sign}"),)
+                yield FeaturePair(evaluate_rim_over_cap, {**values, "cap": float(cap), "size": size}, names)
 
 
 def _crossing(first: Frustum, second: Frustum) -> Iterator[FeaturePair]:
@@ -226,10 +228,10 @@ def _crossing(first: Frustum, second: Frustum) -> Iterator[FeaturePair]:
             halves.append((HIGH_RIM, 1.0))
         for rim, half in halves if other[SIDE] > 0.0 else ():
             values = {"swap": swap, "first": own, "rim": float(rim), "half": half, "second": other, "size": size}
-            yield FeaturePair(evaluate_rim_over_side, values, (_names(swap, RIM_NAMES[rim], "side"),))
+            yield FeaturePair(evaluate_rim_over_side, values, (_names(swap, _RIM_NAMES[rim], "side"),))
     for i, j, half in itertools.product(rims_of(core_a), rims_of(core_b), (1.0, -1.0)):
         values = {"first": core_a, "rim_a": float(i), "second": core_b, "rim_b": float(j), "half": half, "size": size}
-        yield FeaturePair(evaluate_rims, values, (f"{RIM_NAMES[i]} and {RIM_NAMES[j]}",))
+        yield FeaturePair(evaluate_rims, values, (f"{_RIM_NAMES[i]} and {_RIM_NAMES[j]}",))
 
 
 def _of_apices(first: Frustum, second: Frustum) -> Iterator[FeaturePair]:

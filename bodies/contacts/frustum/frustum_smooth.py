@@ -22,9 +22,10 @@ from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, HIGH, LOW, LOW_RADIUS, SIDE, SIN, SWEEP, Frustum
 from ...shapes.smooth import SmoothShape
-from ...vectors import Vector3, minus, opposite, plus, plus_scaled, vector_at
+from ...vectors import minus, opposite, plus, plus_scaled, vector_at
 from ..features.frames import point_in_world
-from ..smooth.inscribed import gauge, is_least_overlap
+from ..features.writing import write_contact
+from ..smooth.inscribed import is_least_overlap
 from ..smooth.overlap_proof import do_overlap
 from ..smooth.round_search import up_hills
 from ..smooth.smooth_core import (
@@ -49,13 +50,11 @@ from .frustum import (
     LOW_CAP,
     LOW_RIM,
     Spot,
-    center_in_world,
     nearest_part,
     part_names,
     part_number,
     placed,
     rim_of,
-    write_contact,
     write_spot,
 )
 from .frustum_stops import ON_BORDER, Pair, by_search, from_rim, on_cap, on_flank, on_rim
@@ -69,12 +68,6 @@ Below it the direction from the axis to the centre is round-off, and the search 
 """
 _LARGER = 1e-14
 """Least difference of two local maxima of the gap, relative to the size; a smaller difference is round-off."""
-_DEEP = 0.9
-"""Gauge of the core below which an overlap is deep, at the frustum's point nearest to the core's centre.
-
-The gauge is 0 at the centre and 1 on the surface.  At a deep overlap some searches are left out, because they may end
-at a smaller local maximum of the gap.
-"""
 _TURNS = 8
 """Number of directions around the axis at which searches start, if the direction to the core's centre fails."""
 
@@ -91,19 +84,6 @@ def _contains_ball(pair: Pair, part: int, found: NearestPoint) -> bool:
     x, y, z = found[1]
     outside, _, _, _ = nearest_part(pair.frustum, z, math.sqrt(x * x + y * y))
     return bool(outside <= found[0] + ON_BORDER * pair.size)
-
-
-@compiled
-def _gauge_near(pair: Pair, point: Vector3) -> float:
-    """Return the gauge of the core at the frustum's point nearest to a point [1]; a point inside is its own."""
-    x, y, z = point
-    away = math.sqrt(x * x + y * y)
-    distance, radial, axial, _ = nearest_part(pair.frustum, z, away)
-    if distance > 0.0:
-        # relative change of the distance from the axis
-        inwards = distance * radial / away if away > 0.0 else 0.0
-        point = x - inwards * x, y - inwards * y, z - distance * axial
-    return float(gauge(pair.cores.second, rotated_back(pair.cores.turn, minus(point, pair.cores.center))))
 
 
 @compiled
@@ -131,10 +111,8 @@ def _nearest(pair: Pair) -> tuple[NearestPoint, int]:
             return found, part
     best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
     best_part = LOW_CAP
-    is_deep, is_sharp = False, max(core[POWERS], core[POWERS + 1]) > 2.0
+    is_sharp = max(core[POWERS], core[POWERS + 1]) > 2.0
     for start in range(_TURNS + 4):
-        if start == 1:
-            is_deep = _gauge_near(pair, place) < _DEEP
         # start 0: normals towards the centre; 1: the searches of `by_search`; 2, 3: normals near the side's, near the
         # cap's; from 4 on: directions all around the axis
         tilt = -0.5 if start == 0 else 0.05 if start == 2 else 0.95 if start == 3 else 0.5
@@ -148,8 +126,7 @@ def _nearest(pair: Pair) -> tuple[NearestPoint, int]:
             is_rim = part == LOW_RIM or part == HIGH_RIM
             if part < LOW_CAP or part > HIGH_CAP or (frustum[SIDE] == 0.0 and (part == FLANK or part == HIGH_RIM)):
                 continue
-            if (not is_rim and (start == 2 or start == 3)) or (start == 1 and is_deep):
-                # at a deep overlap the gap has several maxima, of which `by_search` may find a smaller one
+            if not is_rim and (start == 2 or start == 3):
                 continue
             if start == 1:
                 found = by_search(pair, direction, part)
@@ -166,7 +143,7 @@ def _nearest(pair: Pair) -> tuple[NearestPoint, int]:
                     return best, best_part
                 if is_least_overlap(pair.cores, found):
                     return best, best_part
-    if (is_sharp and not is_deep and best[0] < 0.0) or math.isnan(best[0]):
+    if (is_sharp and best[0] < 0.0) or math.isnan(best[0]):
         # next to a ridge or a tip of the core the local maximum with the smallest depth may have been missed
         found, part = _on_rims(pair)
         if not math.isnan(found[0]) and not found[0] <= best[0] + _LARGER * size:
@@ -207,13 +184,13 @@ def evaluate_frustum_smooth(
     nearest.  The pair has one contact, which has no boundary.
     """
     axes_a, axes_b = axes_in_world(a, first), axes_in_world(b, second)
-    center = center_in_world(a, first)
-    place = rotated_back(axes_a, minus(point_in_world(b, vector_at(second, CENTER)), center))
+    one = placed(a, first)
+    place = rotated_back(axes_a, minus(point_in_world(b, vector_at(second, CENTER)), one.center))
     turn = relative_rotation(axes_a, axes_b)
     size = spread(place) + largest_semi_axis(second) + first[LOW_RADIUS] + first[HIGH] - first[LOW]
     (core_gap, p, n), part = _nearest(Pair(first, low, high, Cores(point, second, turn, place), size))
     gap, normal = core_gap - second[RADIUS] - first[SWEEP], rotated(axes_a, n)
-    point_b = plus_scaled(plus(center, rotated(axes_a, p)), -second[RADIUS], normal)
+    point_b = plus_scaled(plus(one.center, rotated(axes_a, p)), -second[RADIUS], normal)
     write_contact(a, out, gap, 0.0, part_number(first, part), normal, point_b, True)
     write_surface(out, SIDE_B, second, axes_b, rotated_back(turn, opposite(n)), rotated_back(turn, minus(p, place)))
     radial = math.sqrt(n[0] * n[0] + n[1] * n[1])
@@ -222,7 +199,7 @@ def evaluate_frustum_smooth(
     away = max(ex * p[0] + ey * p[1] - core_gap * radial, 0.0)
     if part == LOW_RIM or part == HIGH_RIM:
         away, _, _ = rim_of(first, part)
-    write_spot(out, SIDE_A, Spot(placed(a, first), part, rotated(axes_a, (ex, ey, 0.0)), away), normal)
+    write_spot(out, SIDE_A, Spot(one, part, rotated(axes_a, (ex, ey, 0.0)), away), normal)
 
 
 @final

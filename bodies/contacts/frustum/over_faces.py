@@ -6,19 +6,20 @@ The surface, of the second body, need not be convex.  The corner and its frustum
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from nonsmooth.compiled import block_at, compiled
 from nonsmooth.engine.memory.blocks import POSITION, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import AXIS, HIGH, LOW, LOW_RADIUS, SIDE
+from ...shapes.frustum import AXIS, HIGH, LOW_RADIUS, SIDE
 from ...shapes.frustum import SWEEP as FRUSTUM_SWEEP
 from ...vectors import Vector3, dot, minus, opposite, plus_scaled, vector_at
 from ..features.edge_crossing import CONE_MARGIN
 from ..features.ends import CLOSED, END, NEAR, OPEN, REACH, gap_at_distance, gap_past_end
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
 from ..features.vertex import Vertex, steepest
-from ..features.writing import write_flat, write_round
+from ..features.writing import write_contact, write_flat, write_round
 from ..surface.overlap_corners import FLUSH
 from ..surface.surface_ball import out_of_surface, write_feature
 from ..surface.surface_search import (
@@ -53,17 +54,16 @@ from .frustum import (
     LOW_RIM,
     Placed,
     Spot,
-    axis_in_world,
-    center_in_world,
+    from_axis,
     least_height,
     normal_of_part,
     off_cone_of_rim,
-    on_axis_in_world,
     over_part,
     part_number,
     past_apex,
     past_of_rim,
-    write_contact,
+    placed,
+    rim_of,
     write_spot,
 )
 
@@ -74,18 +74,37 @@ _FLAT = 1e-12
 @compiled
 def frustum_in_surface(a: Floats, b: Floats, frustum: Floats) -> Placed:
     """Return the first body's frustum in the axes of the second body."""
-    return Placed(frustum, point_in_body(b, center_in_world(a, frustum)), vector_in_body(b, axis_in_world(a, frustum)))
+    one = placed(a, frustum)
+    return Placed(frustum, point_in_body(b, one.center), vector_in_body(b, one.axis))
+
+
+class Lowest(NamedTuple):
+    """The point of a rim that is farthest along a unit vector n, which points into the other body."""
+
+    point: Vector3
+    """The point [m]."""
+    outward: Vector3
+    """Unit vector to the point from the rim's centre."""
+    radial: float
+    """Component of n along ``outward``: the sine of the angle between n and the axis."""
+    off_cone: float
+    """Sine of the angle between n and the normal cone of the rim, negative inside of this cone."""
 
 
 @compiled
-def lowest_on_rim(n: Vector3, axis: Vector3, otherwise: Vector3) -> tuple[float, float, Vector3]:
-    """Return axial and radial component of the unit normal n, and the unit vector of its radial part.
+def lowest_on_rim(frustum: Placed, rim: int, n: Vector3, otherwise: Vector3) -> Lowest:
+    """Return the point of a rim, ``LOW_RIM`` or ``HIGH_RIM``, that is farthest along n.
 
-    The rim's farthest point along n lies in the direction of this unit vector from its centre.  It is ``otherwise`` if
-    n is along the axis within round-off: all points of the rim are then equally far.
+    If n is along the axis within round-off, all points are equally far: the result is the one in the direction
+    ``otherwise``.
     """
+    numbers, center, axis = frustum
+    radius, height, up = rim_of(numbers, rim)
     axial, radial, outward = across(n, axis)
-    return axial, radial, otherwise if radial < _FLAT else outward
+    if radial < _FLAT:
+        outward = otherwise
+    point = plus_scaled(plus_scaled(center, height, axis), radius, outward)
+    return Lowest(point, outward, radial, off_cone_of_rim(numbers, up, radial, axial))
 
 
 @compiled
@@ -130,28 +149,21 @@ def _is_real(surface: Floats, frustum: Placed, depth: float, point: Vector3) -> 
 
 @compiled
 def _rim_over(
-    surface: Floats, face: int, frustum: Placed, upper: int, otherwise: Vector3, reach: float
+    surface: Floats, face: int, frustum: Placed, low: Lowest, radius: float, reach: float
 ) -> tuple[float, float]:
     """Return gap and distance past the border [m] of a rim over a face; the gap includes the sweeps of both bodies.
 
-    The gap is measured at the point of the rim that is lowest over the face.  A point past the border of the face, at
-    the distance ``past``, has the gap hypot(height, past).  If no part of the face is within ``reach`` [m] of the
-    point, both results are at least ``reach``, less the sweeps.
+    The gap is measured at the point of the rim that is lowest over the face, ``low``.  A point past the border of the
+    face, at the distance ``past``, has the gap hypot(height, past).  If no part of the face is within ``reach`` [m] of
+    the point, both results are at least ``reach``, less the sweeps.
 
     The lowest point of a rim nearly parallel to the face moves far while the bodies hardly move.  Above the face the
     distance past the border is therefore reduced (:func:`bodies.contacts.frustum.frustum.past_of_rim`).
 
-    ``frustum`` is in the axes of the surface; ``otherwise`` is the unit vector to the contact point of a rim
-    parallel to the face.
+    ``frustum`` and ``low`` are in the axes of the surface; ``radius`` is that of the rim [m].
     """
-    numbers, middle, axis = frustum
-    center, radius = plus_scaled(middle, numbers[LOW + upper], axis), numbers[LOW_RADIUS + upper]
-    up, sweep = 2.0 * upper - 1.0, numbers[FRUSTUM_SWEEP] + surface[SWEEP]
-    size = surface[SIZE]
-    axial, radial, outward = lowest_on_rim(opposite(normal_of(surface, face)), axis, otherwise)
-    point = plus_scaled(center, radius, outward)
-    height = face_height(surface, face, point)
-    past_cone = size * (off_cone_of_rim(numbers, up, radial, axial) - CONE_MARGIN)
+    point, size, sweep = low.point, surface[SIZE], frustum.numbers[FRUSTUM_SWEEP] + surface[SWEEP]
+    height, past_cone = face_height(surface, face, point), size * (low.off_cone - CONE_MARGIN)
     least_key, apart, past = reach * reach, reach, reach
     is_under, past_under = False, 0.0
     leaf = next_leaf(surface, 0, ANY_PATCH, point, least_key)
@@ -172,83 +184,73 @@ def _rim_over(
     if past <= 0.0:
         return height - sweep, past
     if height > sweep:
-        past = past_of_rim(past, radius, radial)
+        past = past_of_rim(past, radius, low.radial)
     is_convex = surface[IS_CONVEX] == 1.0
     return gap_past_end((height if height >= 0.0 or is_convex else apart) - sweep, past, is_convex), past
 
 
 @compiled
-def write_rim(
-    a: Floats, b: Floats, out: Floats, frustum: Floats, upper: int, surface: Floats, face: int, reach: float
-) -> None:
+def write_rim(a: Floats, out: Floats, frustum: Floats, rim: int, solid: Solid, face: int, reach: float) -> None:
     """Write the geometry block of a rim of the first body, at its lowest point, over a face of the second body.
 
-    ``upper`` is 1 for the upper rim, 0 for the lower one.  The contact is evaluated up to the
-    distance ``reach`` of the rim from the face [m].
+    ``rim`` is 1 for the lower rim, 3 for the upper one.  The contact is evaluated up to the distance ``reach`` of the
+    rim from the face [m].
     """
-    axis, center = axis_in_world(a, frustum), on_axis_in_world(a, frustum, frustum[LOW + upper])
+    b, surface = solid
+    one, two, n = placed(a, frustum), frustum_in_surface(a, b, frustum), opposite(normal_of(surface, face))
     # the frustum's first axis, perpendicular to its own
     otherwise = vector_in_world(a, (frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4]))
-    radius, sweep = frustum[LOW_RADIUS + upper], frustum[FRUSTUM_SWEEP]
+    radius, _, _ = rim_of(frustum, rim)
     # any point of the rim may become the lowest one
-    placed, reach = frustum_in_surface(a, b, frustum), reach + 2.0 * radius
-    gap, past = _rim_over(surface, face, placed, upper, vector_in_body(b, otherwise), reach)
-    n = vector_in_world(b, opposite(normal_of(surface, face)))
-    _, _, outward = lowest_on_rim(n, axis, otherwise)
-    point = plus_scaled(plus_scaled(center, radius, outward), sweep, n)
+    low = lowest_on_rim(two, rim, n, vector_in_body(b, otherwise))
+    gap, past = _rim_over(surface, face, two, low, radius, reach + 2.0 * radius)
+    n = vector_in_world(b, n)
+    low = lowest_on_rim(one, rim, n, otherwise)
+    point = plus_scaled(low.point, frustum[FRUSTUM_SWEEP], n)
     write_contact(a, out, gap, past, float(face), n, point, False)
-    write_spot(out, SIDE_A, Spot(Placed(frustum, center, axis), LOW_RIM, outward, radius), n)
+    write_spot(out, SIDE_A, Spot(one, LOW_RIM, low.outward, radius), n)
     write_flat(out, SIDE_B)
 
 
 @compiled
-def write_tip(
-    a: Floats,
-    b: Floats,
-    out: Floats,
-    frustum: Floats,
-    surface: Floats,
-    patch: float,
-    vertex: Vertex,
-    reach: float,
-) -> None:
-    """Write the geometry block of a foot or a sharp apex of the first body over a patch of the second body.
+def write_tip(a: Floats, out: Floats, frustum: Floats, tip: Vertex, solid: Solid, patch: float, reach: float) -> None:
+    """Write the geometry block of a foot or a sharp apex of the first body, the ``tip``, over a patch of the second.
 
-    ``vertex`` is the tip.  Faces are searched up to the distance ``reach`` of the cores [m].
+    Faces are searched up to the distance ``reach`` of the cores [m].
     """
-    face, gap, past = face_under(Solid(b, surface), a, patch, vertex, reach, False)
-    n = vector_in_world(b, opposite(normal_of(surface, face)))
-    tip, sweep = point_in_world(a, vertex.place), frustum[FRUSTUM_SWEEP] + surface[SWEEP]
-    height = face_height(surface, face, point_in_body(b, tip)) - sweep
+    b, surface = solid
+    face, gap, past = face_under(solid, a, patch, tip, reach, False)
+    n, place = vector_in_world(b, opposite(normal_of(surface, face))), point_in_world(a, tip.place)
+    radius = frustum[FRUSTUM_SWEEP]
+    sweep = radius + surface[SWEEP]
+    height = face_height(surface, face, point_in_body(b, place)) - sweep
     gap = gap_at_distance(gap, past, sweep)
     if past > 0.0 and height < 0.0 and surface[IS_CONVEX] == 1.0:
         # the depth of a spring at which another contact takes over
         gap = height
-    point = plus_scaled(tip, frustum[FRUSTUM_SWEEP], n)
-    write_contact(a, out, gap, past, float(face), n, point, False)
-    write_round(out, SIDE_A, frustum[FRUSTUM_SWEEP])
+    write_contact(a, out, gap, past, float(face), n, plus_scaled(place, radius, n), False)
+    write_round(out, SIDE_A, radius)
     write_flat(out, SIDE_B)
 
 
 @compiled
-def write_apex(
-    a: Floats, b: Floats, out: Floats, frustum: Floats, surface: Floats, patch: float, size: float, reach: float
-) -> None:
+def write_apex(a: Floats, out: Floats, frustum: Floats, solid: Solid, patch: float, size: float, reach: float) -> None:
     """Write the geometry block of the apex of a cone and the nearest face or edge of one patch of the second body.
 
     One of the two bodies is rounded.  A corner of the surface has a contact of its own.  ``size`` is the size of the
     bodies [m], ``reach`` the distance of the cores up to which features are searched [m].
     """
-    axis, apex = axis_in_world(a, frustum), on_axis_in_world(a, frustum, frustum[HIGH])
-    place = point_in_body(b, apex)
+    surface, one = solid.surface, placed(a, frustum)
+    apex = plus_scaled(one.center, frustum[HIGH], one.axis)
+    place = point_in_body(solid.frame, apex)
     # a segment has no face that could stand for features out of reach
     found = nearest_in_patch(surface, patch, place, reach if surface[N_FACES] > 0.0 else FAR)
     # one patch is the whole surface, which has no end
     past = found.past if surface[N_PATCHES] > 1.0 else 0.0
-    n = opposite(out_of_surface(Solid(b, surface), found, past, place))
+    n = opposite(out_of_surface(solid, found, past, place))
     radius = frustum[FRUSTUM_SWEEP]
     gap = found.distance - radius - surface[SWEEP]
-    side_nearer = past_apex(frustum, found.distance, dot(n, axis), size)
+    side_nearer = past_apex(frustum, found.distance, dot(n, one.axis), size)
     # the sphere of the apex is a part of the cone, so that a large gap is valid as a bound of the bodies' gap
     past = max(past, min(side_nearer, -END * size) if gap > NEAR * size else side_nearer)
     # a corner has a contact of its own
@@ -261,7 +263,7 @@ def write_apex(
         gap = gap_past_end(gap, past, surface[IS_CONVEX] == 1.0)
     write_contact(a, out, gap, past, 0.0, n, plus_scaled(apex, radius, n), False)
     write_round(out, SIDE_A, radius)
-    write_feature(out, SIDE_B, Solid(b, surface), found.kind, found.number)
+    write_feature(out, SIDE_B, solid, found.kind, found.number)
 
 
 @compiled
@@ -294,7 +296,7 @@ def _tip_past_rim(
 
 @compiled
 def write_corner(
-    a: Floats, b: Floats, out: Floats, frustum: Floats, surface: Floats, corner: int, lengths: Floats, size: float
+    a: Floats, out: Floats, frustum: Floats, solid: Solid, corner: int, lengths: Floats, size: float
 ) -> None:
     """Write the geometry block of a corner of the second body and the nearest part of the first, cap or side.
 
@@ -305,10 +307,10 @@ def write_corner(
     ``corner`` is the number of the corner.  For a disc, ``lengths`` are those of the edges of all corners, one corner
     after the other [m].  ``size`` is the size of the larger body [m].
     """
-    vertex = corner_at(surface, corner)
-    axis, center = axis_in_world(a, frustum), center_in_world(a, frustum)
-    point = point_in_world(b, vertex.place)
-    along, away, outward = across(minus(point, center), axis)
+    b, surface = solid
+    vertex, one = corner_at(surface, corner), placed(a, frustum)
+    axis, point = one.axis, point_in_world(b, vertex.place)
+    along, away, outward = from_axis(one, point)
     is_disc, margin, highest = frustum[SIDE] == 0.0, REACH * size, -math.inf
     for part in (LOW_CAP, FLANK, HIGH_CAP):
         highest = max(highest, over_part(frustum, part, along, away)[0])
@@ -325,7 +327,7 @@ def write_corner(
             # a corner behind a disc touches it only if its edges go through the disc, or if the corner's body encloses
             # the point of the disc nearest to the corner
             own_lengths = block_at(lengths, int(corner_row(surface, corner)[STAR]) // 3)
-            from_center = minus(point, center)
+            from_center = minus(point, one.center)
             past_rim = _tip_past_rim(b, vertex, own_lengths, from_center, n, -height, frustum[LOW_RADIUS])
             foot = vector_in_body(b, minus(plus_scaled(point, -height, n), vector_at(b, POSITION)))
             if past_rim > 0.0 and depth_inside(surface, foot) == 0.0:
@@ -337,6 +339,5 @@ def write_corner(
     _, _, radial, axial = over_part(frustum, nearest, along, away)
     normal = normal_of_part(axis, outward, radial, axial)
     write_contact(a, out, gap, past, part_number(frustum, nearest), normal, point, True)
-    spot = Spot(Placed(frustum, center, axis), nearest, outward, max(away - gap * radial, 0.0))
-    write_spot(out, SIDE_A, spot, normal)
+    write_spot(out, SIDE_A, Spot(one, nearest, outward, max(away - gap * radial, 0.0)), normal)
     write_round(out, SIDE_B, 0.0)

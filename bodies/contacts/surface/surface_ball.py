@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import FEATURE, GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import FEATURE, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...vectors import Vector3, cross, divided, dot, minus, plus_scaled, scaled, vector_at, write_vector
+from ...vectors import Vector3, cross, divided, dot, minus, opposite, plus_scaled, vector_at
 from ..features.edge_crossing import CONE_MARGIN
 from ..features.edge_row import ALONG, Edge, direction_of
 from ..features.ends import END, NEAR, OPEN, gap_past_end, past_vertex
@@ -17,9 +17,8 @@ from ..features.frames import (
     point_seen_from,
     tangent_of,
     vector_in_world,
-    write_tangent,
 )
-from ..features.writing import write_flat, write_principal, write_round
+from ..features.writing import write_contact, write_flat, write_principal, write_round
 from .overlap_corners import Over, corner_of_overlap, part_of_overlap
 from .surface_search import Found, distance_from_ends, nearest_in_patch
 from .surface_tables import (
@@ -105,11 +104,8 @@ def _write_over(out: Floats, over: Over, n: Vector3, gap: float, past: float, ki
     """
     frame, own_frame, radius = over.solid.frame, over.other.frame, over.other.surface[SWEEP]
     point = plus_scaled(point_in_world(own_frame, over.vertex.place), -radius, n)
-    out[GAP], out[PAST_END] = gap, past
-    write_vector(out, NORMAL, scaled(-1.0 if over.is_first else 1.0, n))
-    write_vector(out, POINT_A if over.is_first else POINT_B, point)
-    write_vector(out, POINT_B if over.is_first else POINT_A, plus_scaled(point, -gap, n))
-    write_tangent(own_frame if over.is_first else frame, out)
+    a, normal = (own_frame, opposite(n)) if over.is_first else (frame, n)
+    write_contact(a, out, gap, past, 0.0, normal, point, not over.is_first)
     write_feature(out, SIDE_B if over.is_first else SIDE_A, over.solid, kind, number)
     write_round(out, SIDE_A if over.is_first else SIDE_B, radius)
 

@@ -18,11 +18,10 @@ from ..features.bounds import edges_bound
 from ..features.edge_row import Edge
 from ..features.frames import point_seen_from
 from ..features.writing import NO_CANDIDATE, write_apart
-from .near_pairs import find_near_features
 from .overlap_corners import Over
 from .surface_ball import write_round_corner, write_sharp_corner
 from .surface_edges import write_edges
-from .surface_near import EDGE_ACROSS, NARROW, OVER_FIRST, OVER_SECOND
+from .surface_near import EDGE_ACROSS, NARROW, OVER_FIRST, OVER_SECOND, find_near_features
 from .surface_search import FAR, nearest_in_patch, signed_distance
 from .surface_tables import N_FACES, SWEEP, Solid, corner_at, edge_at, surface_numbers
 
@@ -161,7 +160,7 @@ def _sides(features: Features) -> int:
 
 
 def limits(n_pairs: int, extents: Sequence[float]) -> dict[str, Value]:
-    """Return the numbers that limit a search (:mod:`bodies.contacts.surface.near_pairs`), by their names.
+    """Return the numbers that limit a search (:mod:`bodies.contacts.surface.surface_near`), by their names.
 
     The bodies move by the margin together.  A body turns by its displacement over its extent [m]: the smaller one may
     turn farther.  ``extents`` are those of the bodies that have edges; a ball does not turn.

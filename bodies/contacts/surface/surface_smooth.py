@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import final
 
-from nonsmooth.engine.memory.blocks import GAP, NORMAL, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
+from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
 from nonsmooth.interfaces import CandidateSearch, ContactKinematics, FeaturePair, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
@@ -14,10 +14,10 @@ from ...meshes.patches import patches_for_body
 from ...shapes.smooth import SmoothShape, extent
 from ...shapes.support_function import is_round
 from ...shapes.surface_shape import SurfaceShape
-from ...vectors import minus, opposite, plus_scaled, vector_at, write_vector
+from ...vectors import minus, opposite, plus_scaled, vector_at
 from ..features.edge_row import START
-from ..features.frames import point_in_world, point_seen_from, vector_in_world, write_tangent
-from ..features.writing import NO_CANDIDATE, write_apart
+from ..features.frames import point_in_world, point_seen_from, vector_in_world
+from ..features.writing import NO_CANDIDATE, write_apart, write_contact
 from ..smooth.smooth_core import (
     CENTER,
     POINT,
@@ -78,18 +78,15 @@ def evaluate_surface_smooth(
         (g, past, n, point), kind, number = nearest_of_patch(body, candidate[1], reach)
     gap = g - surface[SWEEP] - second[RADIUS]
     # if there is one patch only, it is the whole surface, which has no end
-    out[PAST_END] = past if surface[N_PATCHES] > 1.0 else 0.0
-    out[GAP] = gap if is_convex or past <= 0.0 else math.hypot(gap, past)
+    past_end = past if surface[N_PATCHES] > 1.0 else 0.0
+    gap = gap if is_convex or past <= 0.0 else math.hypot(gap, past)
     p = facing_point(cores, n)[0]
     if kind != ON_FACE and not is_round(second):
         # on a flat place of the smooth body the normal does not determine the point: use the surface's point
         p = plus_scaled(point, g, n)
     normal = vector_in_world(a, n)
     point_b = plus_scaled(point_in_world(a, p), -second[RADIUS], normal)
-    write_vector(out, NORMAL, normal)
-    write_vector(out, POINT_B, point_b)
-    write_vector(out, POINT_A, plus_scaled(point_b, -out[GAP], normal))
-    write_tangent(a, out)
+    write_contact(a, out, gap, past_end, 0.0, normal, point_b, True)
     write_surface(out, SIDE_B, second, axes_b, rotated_back(turn, opposite(n)), rotated_back(turn, minus(p, center)))
     write_feature(out, SIDE_A, Solid(a, surface), kind, number)
 
