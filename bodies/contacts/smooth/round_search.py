@@ -1,8 +1,8 @@
-"""Gap of a smooth body and a circle, by bracketing the nearest point of the circle.
+"""Gap of a smooth body and a circle or a segment, by bracketing the nearest point of this curve.
 
-The unknown is the angle of a point round the circle.  The derivative of the point's distance from the smooth body is
-the tangential component of the normal.  Between two angles at which this derivative is negative and positive, secant
-steps and bisections narrow the interval.
+The unknown is the place of a point on the curve.  The derivative of the point's distance from the smooth body is the
+tangential component of the normal.  Between two places at which this derivative is negative and positive, secant steps
+and bisections narrow the interval.
 
 The search is slow but robust, because it needs no radius of curvature of the circle.  For normals close to the circle's
 axis this radius varies without bound, and Newton's method on the normal does not converge.
@@ -13,7 +13,7 @@ If the bodies overlap, the direction with the largest gap is found by steps that
 from __future__ import annotations
 
 import math
-from typing import TypeAlias
+from typing import NamedTuple
 
 from nonsmooth.compiled import compiled
 
@@ -29,31 +29,42 @@ _FIRST = 1e-3
 _STEPS = 120
 """Largest number of steps of a search."""
 _SAME = 4e-16
-"""Round-off: two angles closer than this [rad] are equal, and a smaller derivative of the distance is zero."""
+"""Round-off: two places closer than this are equal [rad or m], and a smaller derivative of the distance is zero."""
 _ACROSS = 1e-9
-"""Largest derivative of the distance by the arc length at an accepted solution.
+"""Largest derivative of the distance by the arc length at an accepted solution [1].
 
 At the exact solution it is 0.  The error of the gap is of the order of its square.
 """
 _TOP = 1e-9
 """Angle to a maximum of the gap at which the steps to it end [rad]."""
 _OVER = 1e-11
-"""Largest distance of the body's contact point from its surface, relative to the size of both bodies."""
-Sample: TypeAlias = tuple[float, NearestPoint]
-"""Derivative of the distance by the arc length of the circle [1], and the solution for one point of the circle.
+"""Least decrease of the gap that is no round-off, relative to the size of both bodies."""
 
-The solution is the gap between the point and the body [m], the body's nearest point [m], and the normal.
-"""
+
+class _Curve(NamedTuple):
+    """A curve from whose points the distance of the smooth body is measured, in the axes of the first core."""
+
+    radius: float
+    """Radius of a circle about the third axis [m]; 0 for a line."""
+    along: Vector3
+    """Unit vector along a line through the origin."""
 
 
 @compiled
-def _sample(cores: Cores, radius: float, angle: float) -> Sample:
-    """Return slope and solution for the circle's point at an angle [rad]; the first core is a point."""
-    c, s = math.cos(angle), math.sin(angle)
-    rim = radius * c, radius * s, 0.0
-    from_rim = at_place(cores, rim)
-    g, p, n = widest_of_round(from_rim, from_rim.center)
-    return n[0] * s - n[1] * c, (g, plus(p, rim), n)
+def _sample(cores: Cores, curve: _Curve, place: float) -> tuple[float, NearestPoint]:
+    """Return slope and solution for a point of a curve; the first core is a point.
+
+    The ``place`` of the point is its angle on a circle [rad], or its distance from the origin on a line [m].  The slope
+    is the derivative of the point's distance from the body by the arc length.  The solution is this distance [m], the
+    body's nearest point [m], and the normal.
+    """
+    point, tangent = scaled(place, curve.along), curve.along
+    if curve.radius > 0.0:
+        c, s = math.cos(place), math.sin(place)
+        point, tangent = (curve.radius * c, curve.radius * s, 0.0), (-s, c, 0.0)
+    from_point = at_place(cores, point)
+    g, p, n = widest_of_round(from_point, from_point.center)
+    return -dot(n, tangent), (g, plus(p, point), n)
 
 
 @compiled
@@ -64,8 +75,8 @@ def round_circle(cores: Cores, radius: float, start: Vector3) -> NearestPoint:
     disc.  The search starts at the direction of ``start`` in the plane of the circle.  The gap is nan if no such point
     was found.
     """
-    begin = math.atan2(start[1], start[0])
-    slope, result = _sample(cores, radius, begin)
+    circle, begin = _Curve(radius, (0.0, 0.0, 0.0)), math.atan2(start[1], start[0])
+    slope, result = _sample(cores, circle, begin)
     if not abs(slope) <= _SAME:
         # downhill from the start, until the slope changes its sign
         sign = -math.copysign(1.0, slope)
@@ -73,9 +84,9 @@ def round_circle(cores: Cores, radius: float, start: Vector3) -> NearestPoint:
         result = math.nan, result[1], result[2]
         while step < math.pi:
             angle = begin + sign * step
-            slope, _ = _sample(cores, radius, angle)
+            slope, _ = _sample(cores, circle, angle)
             if sign * slope >= 0.0:
-                result = _between(cores, radius, Bracket(low, angle, falling, slope, 0))
+                result, _ = _between(cores, circle, Bracket(low, angle, falling, slope, 0))
                 break
             low, falling, step = angle, slope, 2.0 * step
     gap, p, n = result
@@ -86,52 +97,40 @@ def round_circle(cores: Cores, radius: float, start: Vector3) -> NearestPoint:
 
 
 @compiled
-def _between(cores: Cores, radius: float, sides: Bracket) -> NearestPoint:
-    """Return gap [m], smooth body's point [m] and normal at the least distance between two angles of the circle [rad].
-
-    The distance decreases from either angle into the interval.  The gap is nan if the nearest point jumps there.
-    """
-    slope, result = math.nan, (math.nan, cores.center, (0.0, 0.0, 1.0))
-    for _ in range(_STEPS):
-        angle = next_place(sides)
-        slope, result = _sample(cores, radius, angle)
-        is_narrow = abs(sides.high - sides.low) <= _SAME or angle == sides.low or angle == sides.high
-        if abs(slope) <= _SAME or is_narrow:
-            break
-        sides = narrowed(sides, angle, slope)
-    # deep in the body the nearest surface point is discontinuous along the circle: no stationary point
-    return result[0] if abs(slope) <= _ACROSS else math.nan, result[1], result[2]
-
-
-@compiled
 def along_segment(cores: Cores, e: Vector3, length: float) -> tuple[NearestPoint, float]:
     """Return the least distance of a smooth body from a segment: (gap [m], body's point [m], normal), place on it [m].
 
-    The last number is the distance of the segment's nearest point from the start of the segment.  The segment goes
-    from the first core, a point, along the unit vector e over ``length`` [m].  By bisection: the derivative of the
-    distance along the segment is -n . e.
+    The segment goes from the first core, a point, along the unit vector e over ``length`` [m].  The place is the
+    distance of the nearest point from the start of the segment.  The gap is nan if the search failed.
     """
-    low, high, along = 0.0, length, 0.0
-    best: NearestPoint = (math.nan, cores.center, (0.0, 0.0, 1.0))
-    for i in range(_STEPS):
-        # both ends first, then the middle of the remaining interval
-        s = 0.0 if i == 0 else length if i == 1 else 0.5 * (low + high)
-        from_point = at_place(cores, scaled(s, e))
-        g, p, n = widest_of_round(from_point, from_point.center)
-        cosine = dot(n, e)
-        best, along = (g, plus_scaled(p, s, e), n), s
-        if g != g or (i == 0 and cosine <= 0.0) or (i == 1 and cosine >= 0.0):
+    line = _Curve(0.0, e)
+    slope, at_start = _sample(cores, line, 0.0)
+    if not slope < 0.0:
+        return at_start, 0.0
+    last_slope, at_end = _sample(cores, line, length)
+    if not last_slope > 0.0:
+        return at_end, length
+    return _between(cores, line, Bracket(0.0, length, slope, last_slope, 0))
+
+
+@compiled
+def _between(cores: Cores, curve: _Curve, sides: Bracket) -> tuple[NearestPoint, float]:
+    """Return the solution at the least distance between two places of a curve, and its place.
+
+    The distance decreases from either place into the interval.  The gap is nan if the nearest point jumps there.
+    """
+    place, slope = sides.low, math.nan
+    result: NearestPoint = (math.nan, cores.center, (0.0, 0.0, 1.0))
+    for _ in range(_STEPS):
+        place = next_place(sides)
+        slope, result = _sample(cores, curve, place)
+        is_narrow = abs(sides.high - sides.low) <= _SAME or place == sides.low or place == sides.high
+        if abs(slope) <= _SAME or is_narrow:
             break
-        if i > 1 and (abs(cosine) <= _SAME or s == low or s == high):
-            if g < 0.0 and abs(cosine) > _ACROSS:
-                # deep in the body the nearest surface point is discontinuous along the segment: no solution
-                best = math.nan, best[1], best[2]
-            break
-        if cosine > 0.0:
-            low = s
-        else:
-            high = s
-    return best, along
+        sides = narrowed(sides, place, slope)
+    # deep in the body the nearest surface point is discontinuous along the curve: no stationary point
+    gap, p, n = result
+    return (gap if abs(slope) <= _ACROSS else math.nan, p, n), place
 
 
 @compiled
@@ -151,8 +150,8 @@ def up_hills(cores: Cores, up: float, limit: Vector3) -> NearestPoint:
     for start in starts_of(cores):
         top = local_maximum(cores, start, _TOP)
         solution = widest_of_round(cores, top[1])
-        # Newton's method went to a smaller maximum, or did not converge
         if not solution[0] >= top[0] - _TOP * limit[2]:
+            # Newton's method went to a smaller maximum, or did not converge
             solution = _solution_of(cores.first, top)
         g, _, n = solution
         if not _is_in_range(n, up, limit):

@@ -47,17 +47,8 @@ _TOUCHING = 1e-12
 
 So small an overlap is round-off of touching bodies, which may have no common point.
 """
-_THIN, _BURIED = 4.0, 0.5
-"""Limits above which the search also starts along the axes of both bodies, to find a larger gap than a proved one.
-
-``_THIN``: ratio of the largest to the least semi-axis.  ``_BURIED``: ratio of the overlap to the least semi-axis.
-"""
 _NEARBY = 0.05
 """Angle to a maximum of the gap at which Newton's method is restarted [rad]."""
-_SAMPLES = 8
-"""Number of equal parts into which the line between both contact points is divided, to find a common point."""
-_ON_SURFACE = 1e-12
-"""Largest deviation of the gauge from 1 at a point of the surface: round-off."""
 
 
 @compiled
@@ -91,7 +82,7 @@ def largest_gap(cores: Cores) -> NearestPoint:
 
 @compiled
 def _near_start(cores: Cores, start: Start) -> NearestPoint:
-    """Return a maximum of the gap with a gap no less than that of the start, by searches ever closer to a maximum."""
+    """Return a maximum of the gap that is no less than the gap of a start, by searches ever closer to a maximum."""
     found = _from_start(cores, start[1])
     if not found[0] >= start[0]:
         # Newton's method went to a smaller maximum, or did not converge
@@ -126,7 +117,7 @@ def _axis(turn: Axes, number: int) -> Vector3:
 
 @compiled
 def _is_real(cores: Cores, gap: float) -> bool:
-    """Return whether the bodies overlap if the gap says so; a gap above ``-_TOUCHING`` needs no proof."""
+    """Return whether the bodies have a common point if a gap is negative; one above ``-_TOUCHING`` needs no proof."""
     return bool(gap >= -_TOUCHING * spread(cores.center)) or (
         gap < 0.0 and do_overlap(cores.first, 0.0, cores.first, 0.0, cores)
     )
