@@ -35,7 +35,7 @@ class SmoothOver(NamedTuple):
     center: Vector3
     """Centre of the core [m]."""
     size: float
-    """Size of the body [m], the distance past the end of a feature for a normal off its normals by a sine of 1."""
+    """Size of the bodies [m]; a sine off the normals of a feature, times the size, is a distance past its end."""
 
 
 class Stop(NamedTuple):
