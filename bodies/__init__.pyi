@@ -16,10 +16,10 @@ from .contacts.plane.plane_smooth import PlaneEllipsoid as PlaneEllipsoid
 from .contacts.plane.plane_smooth import PlaneSmooth as PlaneSmooth
 from .contacts.round.sphere_sphere import SphereSphere as SphereSphere
 from .contacts.smooth.smooth_smooth import SmoothSmooth as SmoothSmooth
+from .contacts.surface.surface_pairs import SurfacePoint as SurfacePoint
+from .contacts.surface.surface_pairs import SurfaceSphere as SurfaceSphere
+from .contacts.surface.surface_pairs import SurfaceSurface as SurfaceSurface
 from .contacts.surface.surface_smooth import SurfaceSmooth as SurfaceSmooth
-from .contacts.surface.surface_surface import SurfacePoint as SurfacePoint
-from .contacts.surface.surface_surface import SurfaceSphere as SurfaceSphere
-from .contacts.surface.surface_surface import SurfaceSurface as SurfaceSurface
 from .cylinder_body import CylinderBody as CylinderBody
 from .disc_body import DiscBody as DiscBody
 from .driven_body import DrivenBody as DrivenBody

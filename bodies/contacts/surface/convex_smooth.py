@@ -14,9 +14,8 @@ from __future__ import annotations
 import math
 
 from nonsmooth.compiled import compiled
-from nonsmooth.types import Floats
 
-from ...vectors import Vector3, cross, dot, minus, opposite, plus, plus_scaled, scaled, vector_at
+from ...vectors import cross, dot, minus, opposite, plus, plus_scaled, scaled, vector_at
 from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH, START
 from ..features.ends import REACH
 from ..features.frames import tangent_of
@@ -35,7 +34,6 @@ from .surface_tables import (
     ON_FACE,
     corner_at,
     edge_at,
-    face_height,
     triangles_of,
 )
 
@@ -55,8 +53,6 @@ _ABOVE = 0.1
 """Least height of the point that decides on the next feature above the stop, relative to the core's least semi-axis."""
 _STEPS = 12
 """Largest number of features of the search for a valid stop."""
-_FEW = 50
-"""Number of faces up to which the search begins with the face over which the core's centre is highest."""
 _ROUND = 8
 """Number of directions about a segment from which Newton's method starts, if the segment is deep in the body."""
 
@@ -116,37 +112,22 @@ def _is_valid(body: SmoothOver, stop: Stop) -> bool:
 
 @compiled
 def _first_valid(body: SmoothOver) -> Nearest:
-    """Return the first valid stop on the way from a feature near to the core's centre, or a failed search."""
-    radius, aim = min(body.cores.second[0], body.cores.second[1], body.cores.second[2]), body.cores.center
-    last, part = (0.0, 0.0, 0.0), 1.0
-    kind, number = ON_FACE, _highest_face(body.surface, body.cores.center)
+    """Return the first valid stop on the way from the feature nearest to the core's centre, or a failed search."""
+    core, aim, last, part = body.cores.second, body.cores.center, (0.0, 0.0, 0.0), 1.0
+    radius = min(core[0], core[1], core[2])
     for _ in range(_STEPS):
-        if number < 0:
-            found = nearest_in_patch(body.surface, 0.0, aim, FAR)
-            kind, number = found.kind, found.number
-        stop = _stop(body, kind, number, False)
+        found = nearest_in_patch(body.surface, 0.0, aim, FAR)
+        stop = _stop(body, found.kind, found.number, False)
         if _is_valid(body, stop):
-            return Nearest(stop, kind, number)
+            return Nearest(stop, found.kind, found.number)
         if math.isnan(stop.gap):
             break
         # next, aim at the centre of a ball in the core that touches its surface over the stop
         step = minus(plus_scaled(stop.point, max(radius + stop.gap, _ABOVE * radius), stop.normal), aim)
         # half of a step that turns back, so that the search finds the edge between two faces
         part = 0.5 * part if dot(step, last) < 0.0 else part
-        aim, last, number = plus_scaled(aim, part, step), step, -1
+        aim, last = plus_scaled(aim, part, step), step
     return Nearest(Stop(math.nan, 0.0, (0.0, 0.0, 1.0), (0.0, 0.0, 0.0)), ON_FACE, 0)
-
-
-@compiled
-def _highest_face(surface: Floats, point: Vector3) -> int:
-    """Return the face over whose plane a point is highest, or -1 if a search of the tree costs less than all faces."""
-    highest, most = -1, -math.inf
-    if surface[N_FACES] <= _FEW:
-        for face in range(int(surface[N_FACES])):
-            height = face_height(surface, face, point)
-            if height > most:
-                highest, most = face, height
-    return highest
 
 
 @compiled

@@ -30,7 +30,7 @@ class SmoothOver(NamedTuple):
     cores: Cores
     """A point at the origin of the surface, and the body."""
     size: float
-    """Size of the body [m], the distance past the end of a feature for a normal off its normals by a sine of 1."""
+    """Size of the bodies [m]; a sine off the normals of a feature, times the size, is a distance past its end."""
 
 
 class Stop(NamedTuple):

@@ -77,16 +77,16 @@ def evaluate_surface_smooth(
         body, reach = SmoothOver(surface, cores, extent), candidate[3] + surface[SWEEP]
         (g, past, n, point), kind, number = nearest_of_patch(body, candidate[1], reach)
     gap = g - surface[SWEEP] - second[RADIUS]
-    # if there is one patch only, it is the whole surface, which has no end
-    past_end = past if surface[N_PATCHES] > 1.0 else 0.0
     gap = gap if is_convex or past <= 0.0 else math.hypot(gap, past)
+    # if there is one patch only, it is the whole surface, which has no end
+    past = past if surface[N_PATCHES] > 1.0 else 0.0
     p = facing_point(cores, n)[0]
     if kind != ON_FACE and not is_round(second):
         # on a flat place of the smooth body the normal does not determine the point: use the surface's point
         p = plus_scaled(point, g, n)
     normal = vector_in_world(a, n)
     point_b = plus_scaled(point_in_world(a, p), -second[RADIUS], normal)
-    write_contact(a, out, gap, past_end, 0.0, normal, point_b, True)
+    write_contact(a, out, gap, past, 0.0, normal, point_b, True)
     write_surface(out, SIDE_B, second, axes_b, rotated_back(turn, opposite(n)), rotated_back(turn, minus(p, center)))
     write_feature(out, SIDE_A, Solid(a, surface), kind, number)
 

@@ -15,7 +15,7 @@ ANY_PATCH = -1.0
 
 
 class Leaf(NamedTuple):
-    """A leaf that a walk has reached; without features, it is the end of the walk."""
+    """A leaf that a walk has reached; without members, it is the end of the walk."""
 
     begin: int
     """Index in the surface's numbers at which the list of its members begins."""
@@ -75,7 +75,7 @@ def first_leaf(surface: Floats, patch: float, point: Vector3) -> Leaf:
 
 @compiled
 def next_leaf(surface: Floats, node: int, patch: float, point: Vector3, square: float) -> Leaf:
-    """Return the first leaf from a node on that is near a point; one without features if there is none.
+    """Return the first leaf from a node on that is near a point; one without members if there is none.
 
     The squared distance of the box from the point is at most ``square`` [m^2], and the leaf may hold features of the
     patch.
