@@ -20,7 +20,6 @@ from ..smooth.smooth_core import Axes, axes_in_world, rotated_back
 from .circle import least_sample, zero_of_slope
 from .frustum import (
     FLANK,
-    LOW_RIM,
     Placed,
     Spot,
     along_side,
@@ -275,7 +274,7 @@ def evaluate_rim_over_side(
     """
     own, other = (b, a) if swap == 1.0 else (a, b)
     one, two, axes = placed(own, first), placed(other, second), axes_in_world(other, second)
-    radius, height, up = rim_of(first, rim)
+    radius, height, _ = rim_of(first, rim)
     # in world axes: centre of the rim from that of the side; unit vectors h, along the projection of the side's axis on
     # the plane of the rim, and g, perpendicular to h
     middle = minus(plus_scaled(one.center, height, one.axis), two.center)
@@ -301,9 +300,11 @@ def evaluate_rim_over_side(
         _, _, of_side = across(opposite(of_rim), two.axis)
     gap, up_side = along_side(second, along, away)
     n = opposite(normal_of_part(two.axis, of_side, second[COS], second[SIN]))
-    # check that the contact normal is a normal of the rim
-    axial = dot(n, one.axis)
-    radial = dot(n, of_rim) if radius > 0.0 else math.sqrt(max(1.0 - axial * axial, 0.0))
+    if radius == 0.0:
+        # the normals of an apex are those of a rim in all directions
+        _, _, of_rim = across(n, one.axis)
+    own_spot = Spot(one, int(rim), of_rim, radius)
+    other_spot = Spot(two, FLANK, of_side, max(away - gap * second[COS], 0.0))
     past_ends = max(-up_side, up_side - second[SIDE])
     if first[SWEEP] + second[SWEEP] > 0.0:
         # extend the side past its end, until the contact of both rims is valid
@@ -311,13 +312,9 @@ def evaluate_rim_over_side(
     if not has_minimum or (is_steep and half < 0.0):
         # a steep pose has one minimum: that contact belongs to one half only
         past_ends = size
-    past = past_border(past_ends, off_cone_of_rim(first, up, radial, axial), size)
+    past = past_border(past_ends, off_cone_of_rim(own_spot, n), size)
     past = max(past, past_depth(one, two, gap, size))
-    rim_spot, side_spot = (
-        Spot(one, int(rim), of_rim, radius),
-        Spot(two, FLANK, of_side, max(away - gap * second[COS], 0.0)),
-    )
-    write_pair(a, out, swap, gap, past, n, plus(two.center, point), rim_spot, side_spot)
+    write_pair(a, out, swap, gap, past, n, plus(two.center, point), own_spot, other_spot)
 
 
 @compiled
@@ -361,13 +358,6 @@ def _nearest_angle(circle: _Circle, other_radius: float) -> float:
     return float(zero_of_slope(_squared_distance, (circle, other_radius), angle, angle - step, angle + step))
 
 
-@compiled
-def off_rim(spot: Spot, up: float, n: Vector3) -> float:
-    """Return the sine of the angle between a normal n and the normal cone of a rim, as :func:`off_cone_of_rim`."""
-    numbers, _, axis = spot.frustum
-    return off_cone_of_rim(numbers, up, dot(spot.offset, n), dot(axis, n))
-
-
 def evaluate_rims(
     a: Floats,
     b: Floats,
@@ -387,7 +377,7 @@ def evaluate_rims(
     of the bodies [m].
     """
     one, two, axes = placed(a, first), placed(b, second), axes_in_world(b, second)
-    (radius, height, up_a), (other_radius, other_height, up_b) = rim_of(first, rim_a), rim_of(second, rim_b)
+    (radius, height, _), (other_radius, other_height, _) = rim_of(first, rim_a), rim_of(second, rim_b)
     other_center = plus_scaled(two.center, other_height, two.axis)
     # in world axes: centre of the first rim, from that of the second; unit vectors g, in the plane of the first rim
     # towards the second rim's centre, and h, perpendicular to it
@@ -413,7 +403,7 @@ def evaluate_rims(
     w = minus(scaled(other_radius, e), point)
     # of two discs edge to edge, the second rim has the curvature of a cylinder's side, so that the normal stays radial
     # while one edge slips over the other
-    own, other = Spot(one, LOW_RIM, u, radius), Spot(two, FLANK if is_edge_to_edge else LOW_RIM, e, other_radius)
+    own, other = Spot(one, int(rim_a), u, radius), Spot(two, FLANK if is_edge_to_edge else int(rim_b), e, other_radius)
     # normal: cross product of both tangents
     n = cross(t, cross(two.axis, e))
     sine, apart = norm(n), norm(w)
@@ -427,15 +417,14 @@ def evaluate_rims(
         n, sine = u, 1.0 if is_edge_to_edge else 0.0
     else:
         n = divided(n, sine)
-    off_cone = max(off_rim(own, up_a, n), off_rim(other, up_b, opposite(n)))
-    off_reversed = max(off_rim(own, up_a, opposite(n)), off_rim(other, up_b, n))
+    off_cone = max(off_cone_of_rim(own, n), off_cone_of_rim(other, opposite(n)))
+    off_reversed = max(off_cone_of_rim(own, opposite(n)), off_cone_of_rim(other, n))
     if off_reversed <= off_cone and not are_cores_apart:
         # the sign for which the normal is nearer to the normal cones of both rims
         n, off_cone = opposite(n), off_reversed
     gap = dot(n, w)
     past = past_border(-size, off_cone, size)
-    off_side_a = off_side(first, up_a, dot(n, u), dot(n, one.axis))
-    off_side_b = off_side(second, up_b, -dot(n, e), -dot(n, two.axis))
+    off_side_a, off_side_b = off_side(own, n), off_side(other, opposite(n))
     if is_round:
         # if the normal is close to a side's normal, the contact of a rim over the side applies
         past = max(past, _ASIDE * size - apart * min(off_side_a, off_side_b))

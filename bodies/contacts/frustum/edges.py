@@ -38,12 +38,13 @@ from ..surface.overlap_corners import FLUSH
 from ..surface.surface_search import past_edge, signed_distance
 from ..surface.surface_tables import IS_CONVEX, N_TRIANGLES, SWEEP, Solid, edge_at
 from .circle import zero_of_slope
-from .crossings import Side, cross_sides, off_rim, side_of
+from .crossings import Side, cross_sides, side_of
 from .frustum import (
     FLANK,
     Placed,
     Spot,
     from_core,
+    off_cone_of_rim,
     past_border,
     placed,
     rim_of,
@@ -117,12 +118,12 @@ def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[f
 
 
 @compiled
-def _off_cones(of_rim: Spot, up: float, edge: Edge, n: Vector3) -> float:
+def _off_cones(of_rim: Spot, edge: Edge, n: Vector3) -> float:
     """Return the sine of the angle between a normal n and the normal cones of a rim and of an edge, the larger one.
 
-    n leads from the rim, the upper one if ``up`` is 1, else -1, to the edge; the sine is negative inside of both cones.
+    n leads from the rim to the edge; the sine is negative inside of both cones.
     """
-    return max(off_rim(of_rim, up, n), sine_off_cone(edge, -1.0, n))
+    return max(off_cone_of_rim(of_rim, n), sine_off_cone(edge, -1.0, n))
 
 
 @compiled
@@ -134,7 +135,7 @@ def _cross_rim(frustum: Placed, rim: float, half: float, edge: Edge, is_round: b
     The other arguments are those of :func:`write_across_rim`.
     """
     (numbers, center, axis), d = frustum, direction_of(edge)
-    radius, height, up = rim_of(numbers, rim)
+    radius, height, _ = rim_of(numbers, rim)
     middle = plus_scaled(center, height, axis)
     start = minus(start_of(edge), middle)
     # unit vectors f: along the edge's projection on the plane of the rim; g: perpendicular to the edge, in this plane;
@@ -168,7 +169,7 @@ def _cross_rim(frustum: Placed, rim: float, half: float, edge: Edge, is_round: b
         n = divided(n, crossing_sine)
     else:
         n = e
-    off_cone, off_reversed = _off_cones(spot, up, edge, n), _off_cones(spot, up, edge, opposite(n))
+    off_cone, off_reversed = _off_cones(spot, edge, n), _off_cones(spot, edge, opposite(n))
     if off_reversed <= off_cone and not are_cores_apart:
         # the sign for which the normal is nearer to the normal cones of rim and edge
         n, off_cone = opposite(n), off_reversed

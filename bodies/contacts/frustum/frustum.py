@@ -259,26 +259,6 @@ def past_apex(frustum: Floats, distance: float, axial: float, size: float) -> fl
     return float(max(distance * (frustum[SIN] * radial - frustum[COS] * axial), -size) - 2.0 * END * size)
 
 
-@compiled
-def off_side(frustum: Floats, up: float, radial: float, axial: float) -> float:
-    """Return the sine of the angle from the side's normal to a contact normal at a rim; 1 for a disc without a side.
-
-    The arguments are those of :func:`off_cone_of_rim`.  The sine is positive towards the normal of the cap.
-    """
-    return up * (frustum[COS] * axial - frustum[SIN] * radial) if frustum[SIDE] > 0.0 else 1.0
-
-
-@compiled
-def off_cone_of_rim(frustum: Floats, up: float, radial: float, axial: float) -> float:
-    """Return the sine of the angle between a contact normal and the normal cone of a rim; negative inside this cone.
-
-    The contact normal points out of the frustum; ``radial`` and ``axial`` are its components away from the axis and
-    along it.  The cone lies between the normals of side and cap, or of both caps of a disc.  ``up`` is 1 for the upper
-    rim and -1 for the lower one.
-    """
-    return float(max(-radial, -off_side(frustum, up, radial, axial)))
-
-
 class Spot(NamedTuple):
     """A contact point on the core of a frustum."""
 
@@ -290,6 +270,29 @@ class Spot(NamedTuple):
     """Vector of any length from a point of the axis towards the contact point, in the world."""
     away: float
     """Distance of the point from the axis [m]."""
+
+
+@compiled
+def off_side(of_rim: Spot, n: Vector3) -> float:
+    """Return the sine of the angle from the side's normal to a contact normal n at a rim; 1 for a disc without a side.
+
+    The contact normal points out of the frustum.  The sine is positive towards the normal of the cap.
+    """
+    (numbers, _, axis), part, outward, _ = of_rim
+    if numbers[SIDE] == 0.0:
+        return 1.0
+    sine = numbers[COS] * dot(n, axis) - numbers[SIN] * dot(n, outward)
+    return sine if part == HIGH_RIM else -sine
+
+
+@compiled
+def off_cone_of_rim(of_rim: Spot, n: Vector3) -> float:
+    """Return the sine of the angle between a contact normal n and the normal cone of a rim; negative inside this cone.
+
+    The cone lies between the normals of side and cap, or of both caps of a disc.  ``of_rim.offset`` must be a unit
+    vector across the axis.
+    """
+    return float(max(-dot(n, of_rim.offset), -off_side(of_rim, n)))
 
 
 @compiled
