@@ -18,20 +18,9 @@ from ..features.ends import CLOSED, REACH
 from ..features.frames import across, tangent_of
 from ..smooth.smooth_core import Axes, axes_in_world, rotated_back
 from .circle import least_sample, zero_of_slope
-from .frustum import (
-    FLANK,
-    Placed,
-    Spot,
-    along_side,
-    normal_of_part,
-    off_cone_of_rim,
-    off_side,
-    past_border,
-    past_depth,
-    placed,
-    rim_of,
-    write_pair,
-)
+from .frustum import FLANK, along_side, normal_of_part, rim_of
+from .frustum_placed import Placed, placed
+from .frustum_writing import Spot, off_cone_of_rim, off_side, past_border, past_depth, write_pair
 
 _STEEP = math.pi / 6.0
 """Angle between the plane of the rim and the side [rad], above which the rim has one minimum of the height only."""
@@ -96,10 +85,10 @@ class SideCrossing(NamedTuple):
     """Normal from the first side to the second, in the world."""
     point: Vector3
     """Contact point of the first side in the world [m]."""
-    up: float
-    """Coordinate of this point up the first side, from its lower rim [m]."""
-    other_up: float
-    """Coordinate of the other contact point up the second side [m]."""
+    away: float
+    """Distance of this point from the axis of the first side [m]."""
+    other_away: float
+    """Distance of the other contact point from the axis of the second side [m]."""
     past_ends: float
     """Distance of the contact points past the ends of the sides [m]."""
     sine: float
@@ -154,7 +143,9 @@ def cross_sides(one: Side, two: Side, least_sine: float, size: float) -> SideCro
         past_ends = max(max(-s, s - one.length), max(-t, t - two.length))
         # the distance along n of the points that cross: an error of n hardly changes it
         gap = dot(n, plus_scaled(plus_scaled(w, t, v), -s, u))
-    return SideCrossing(gap, n, plus_scaled(p, s, u), s, t, past_ends, abs(crossing))
+    # past an apex a point lies on its axis
+    away, other_away = max(one.radius - one.sine * s, 0.0), max(two.radius - two.sine * t, 0.0)
+    return SideCrossing(gap, n, plus_scaled(p, s, u), away, other_away, past_ends, abs(crossing))
 
 
 def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, size: float) -> None:
@@ -165,10 +156,9 @@ def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Flo
     one, two = placed(a, first), placed(b, second)
     round_radius = first[LOW_RADIUS] + second[LOW_RADIUS] + first[SWEEP] + second[SWEEP]
     found = cross_sides(side_of(one), side_of(two), least_round_sine(round_radius, size), size)
-    # distances of the contact points from the axes are not negative past an apex
-    own = Spot(one, FLANK, minus(found.point, one.center), max(first[LOW_RADIUS] - first[SIN] * found.up, 0.0))
-    offset = minus(plus_scaled(found.point, found.gap, found.normal), two.center)
-    other = Spot(two, FLANK, offset, max(second[LOW_RADIUS] - second[SIN] * found.other_up, 0.0))
+    own = Spot(one, FLANK, minus(found.point, one.center), found.away)
+    other_point = plus_scaled(found.point, found.gap, found.normal)
+    other = Spot(two, FLANK, minus(other_point, two.center), found.other_away)
     past = max(past_border(found.past_ends, 0.0, size), past_depth(one, two, found.gap, size))
     write_pair(a, out, 0.0, found.gap, past, found.normal, found.point, own, other)
 

@@ -13,7 +13,6 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import GAP, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import LOW_RADIUS, SIN
 from ...shapes.frustum import SWEEP as FRUSTUM_SWEEP
 from ...vectors import (
     Vector3,
@@ -39,17 +38,9 @@ from ..surface.surface_search import past_edge, signed_distance
 from ..surface.surface_tables import IS_CONVEX, N_TRIANGLES, SWEEP, Solid, edge_at
 from .circle import zero_of_slope
 from .crossings import Side, cross_sides, side_of
-from .frustum import (
-    FLANK,
-    Placed,
-    Spot,
-    from_core,
-    off_cone_of_rim,
-    past_border,
-    placed,
-    rim_of,
-    write_spot,
-)
+from .frustum import FLANK, rim_of
+from .frustum_placed import Placed, from_core, placed
+from .frustum_writing import Spot, off_cone_of_rim, past_border, write_spot
 from .over_faces import frustum_in_surface, past_faces
 
 _STEEP = 0.5
@@ -257,7 +248,7 @@ def write_across_side(a: Floats, out: Floats, frustum: Floats, edge: Edge, surfa
     one = placed(a, frustum)
     line = Side(start_of(edge), direction_of(edge), 0.0, edge.row[LENGTH], 1.0, 0.0)
     found = cross_sides(side_of(one), line, PARALLEL, size)
-    spot = Spot(one, FLANK, minus(found.point, one.center), max(frustum[LOW_RADIUS] - frustum[SIN] * found.up, 0.0))
+    spot = Spot(one, FLANK, minus(found.point, one.center), found.away)
     crossing = _Crossing(spot, found.point, found.normal, found.gap, found.past_ends, -1.0, found.sine)
     _write_crossing(a, out, edge, surface, crossing, size)
 
@@ -268,11 +259,10 @@ def write_across_rim(
 ) -> None:
     """Write the geometry block of an edge of a ``surface`` that crosses one half of a rim.
 
-    An edge that lies across a cap crosses its rim twice, so that there are two contacts, one on either half.  The rims
-    are set back by the feet (:func:`bodies.contacts.frustum.frustum.set_back`); ``rim`` is 1 for the lower rim, 3 for
-    the upper one.  ``half`` is 1 for the half circle towards which the edge points, seen along the axis; -1 for the
-    opposite half circle.  For an edge at less than 60 degrees to the axis, both are the half circle nearer to the edge,
-    and one of them has the contact.
+    An edge that lies across a cap crosses its rim twice, so that there are two contacts, one on either half.  ``rim``
+    is 1 for the lower rim, 3 for the upper one.  ``half`` is 1 for the half circle towards which the edge points, seen
+    along the axis; -1 for the opposite half circle.  For an edge at less than 60 degrees to the axis, both are the half
+    circle nearer to the edge, and one of them has the contact.
     """
     is_round = surface[SWEEP] + frustum[FRUSTUM_SWEEP] > 0.0
     crossing = _cross_rim(placed(a, frustum), rim, half, edge, is_round, size)

@@ -47,24 +47,9 @@ from ..surface.surface_tables import (
 )
 from ..surface.surface_tree import members_at, node_at
 from .edges import write_across_rim, write_across_side
-from .frustum import (
-    FLANK,
-    HIGH_CAP,
-    HIGH_RIM,
-    LOW_CAP,
-    LOW_RIM,
-    Placed,
-    from_axis,
-    from_core,
-    nearest_part,
-    normal_of_part,
-    over_part,
-    part_names,
-    rim_of,
-    rims_of,
-    set_back,
-    tips_of,
-)
+from .frustum import FLANK, HIGH_CAP, HIGH_RIM, LOW_CAP, LOW_RIM, nearest_part, normal_of_part, over_part, rim_of
+from .frustum_features import part_names, rims_of, set_back, tips_of
+from .frustum_placed import Placed, from_axis, from_core
 from .frustum_sphere import write_frustum_vertex
 from .over_faces import frustum_in_surface, lowest_on_rim, write_apex, write_corner, write_rim, write_tip
 

@@ -47,24 +47,9 @@ from ..surface.surface_tables import (
 )
 from ..surface.surface_tree import ANY_PATCH, next_leaf
 from ..surface.surface_vertex import face_under, over_triangle
-from .frustum import (
-    FLANK,
-    HIGH_CAP,
-    LOW_CAP,
-    Placed,
-    Spot,
-    from_axis,
-    least_height,
-    normal_of_part,
-    off_cone_of_rim,
-    over_part,
-    part_number,
-    past_apex,
-    past_of_rim,
-    placed,
-    rim_of,
-    write_spot,
-)
+from .frustum import FLANK, HIGH_CAP, LOW_CAP, normal_of_part, over_part, part_number, rim_of
+from .frustum_placed import Placed, from_axis, least_height, placed
+from .frustum_writing import Spot, off_cone_of_rim, past_apex, past_of_rim, write_spot
 
 _FLAT = 1e-12
 """Sine of the angle between the planes of rim and face below which the lowest point of the rim is round-off."""
@@ -153,7 +138,7 @@ def _rim_over(surface: Floats, face: int, low: Lowest, reach: float) -> tuple[fl
     ``reach`` [m] of the point, both results are at least ``reach``, less the sweeps.
 
     The lowest point of a rim nearly parallel to the face moves far while the bodies hardly move.  Above the face the
-    distance past the border is therefore reduced (:func:`bodies.contacts.frustum.frustum.past_of_rim`).
+    distance past the border is therefore reduced (:func:`bodies.contacts.frustum.frustum_writing.past_of_rim`).
     """
     frustum, point, size = low.spot.frustum, low.point, surface[SIZE]
     sweep = frustum.numbers[FRUSTUM_SWEEP] + surface[SWEEP]
@@ -260,20 +245,18 @@ def write_apex(a: Floats, out: Floats, frustum: Floats, solid: Solid, patch: flo
 
 
 @compiled
-def _tip_past_rim(
-    b: Floats, vertex: Vertex, lengths: Floats, p: Vector3, n: Vector3, depth: float, radius: float
-) -> float:
+def _tip_past_rim(b: Floats, vertex: Vertex, lengths: Floats, disc: Placed, n: Vector3, depth: float) -> float:
     """Return a length [m] that is negative if a vertex behind a disc went through the disc.
 
     Each edge of the vertex that leads back through the disc's plane crosses it at a distance from the disc's centre.
-    The result is the least of these distances, minus ``radius``, plus ``depth``; it is infinite if no edge crosses the
-    plane.  A negative result means that an edge crosses the disc inside of the rim by more than ``depth``.  Otherwise
-    the edges pass the rim from the side.
+    The result is the least of these distances, minus the disc's radius, plus ``depth``; it is infinite if no edge
+    crosses the plane.  A negative result means that an edge crosses the disc inside of the rim by more than ``depth``.
+    Otherwise the edges pass the rim from the side.
 
-    ``lengths`` are those of the edges of the ``vertex`` of body ``b`` [m].  In the world, ``p`` is the vertex from the
-    centre of the disc [m], and ``n`` the unit normal of the disc.  ``depth`` is the distance of the vertex from the
-    disc's plane in the direction -n, ``radius`` is that of the disc [m].
+    The ``vertex`` of body ``b`` has edges of the ``lengths`` [m].  ``depth`` is its distance from the disc's plane [m]
+    in the direction -n, with the unit normal n of the disc in the world.
     """
+    p = minus(point_in_world(b, vertex.place), disc.center)
     least = math.inf
     for i in range(int(vertex.n_star)):
         edge = vector_in_world(b, vector_at(vertex.star, 3 * i))
@@ -283,7 +266,7 @@ def _tip_past_rim(
             continue
         crossing = plus_scaled(p, depth / rise, edge)
         along = dot(n, crossing)
-        least = min(least, math.sqrt(max(dot(crossing, crossing) - along * along, 0.0)) - radius)
+        least = min(least, math.sqrt(max(dot(crossing, crossing) - along * along, 0.0)) - disc.numbers[LOW_RADIUS])
     return least + depth
 
 
@@ -320,8 +303,7 @@ def write_corner(
             # a corner behind a disc touches it only if its edges go through the disc, or if the corner's body encloses
             # the point of the disc nearest to the corner
             own_lengths = block_at(lengths, int(corner_row(surface, corner)[STAR]) // 3)
-            from_center = minus(point, one.center)
-            past_rim = _tip_past_rim(b, vertex, own_lengths, from_center, n, -height, frustum[LOW_RADIUS])
+            past_rim = _tip_past_rim(b, vertex, own_lengths, one, n, -height)
             foot = vector_in_body(b, minus(plus_scaled(point, -height, n), vector_at(b, POSITION)))
             if past_rim > 0.0 and depth_inside(surface, foot) == 0.0:
                 past_border = min(-height, past_rim)
