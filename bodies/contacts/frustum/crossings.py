@@ -15,7 +15,7 @@ from ...shapes.frustum import COS, LOW, LOW_RADIUS, SIDE, SIN, SWEEP
 from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus, plus_scaled, scaled
 from ..features.edge_crossing import PARALLEL, least_round_sine
 from ..features.ends import CLOSED, REACH
-from ..features.frames import across, tangent_of
+from ..features.frames import across
 from ..smooth.smooth_core import Axes, axes_in_world, rotated_back
 from .circle import least_sample, zero_of_slope
 from .frustum import FLANK, along_side, normal_of_part, rim_of
@@ -44,19 +44,6 @@ The offset [m] is the distance of the rims' cores, times the sine of the angle b
 normal of a side, the smaller one of both sides.  At a smaller offset, the contact of a rim with a side replaces this
 contact.
 """
-
-
-@compiled
-def _across_both(a: Vector3, b: Vector3) -> tuple[Vector3, float]:
-    """Return the unit vector along the product a x b of two unit vectors, and the sine of the angle between a and b.
-
-    If they are parallel, the sine is 0, and the vector is any unit vector perpendicular to them.
-    """
-    v = cross(a, b)
-    # the components of a small product along a are round-off
-    v = plus_scaled(v, -dot(v, a), a)
-    size = norm(v)
-    return (divided(v, size), size) if size > 0.0 else (tangent_of(a), 0.0)
 
 
 class Side(NamedTuple):
@@ -120,10 +107,10 @@ def cross_sides(one: Side, two: Side, least_sine: float, size: float) -> SideCro
     the lines is at most ``least_sine``, there is no crossing: the middle of a line is returned, past the end of the
     sides by ``size``, the size of the bodies [m].
     """
-    # n = n_a a + n_e e + n_c c, with the axis a, and unit vectors c along a x b and e = c x a. The sines of the sides
-    # give n . a and -n . b, and |n| = 1 gives n_c
-    c, sine = _across_both(one.axis, two.axis)
-    e, n_a = cross(c, one.axis), one.sine
+    # n = n_a a + n_e e + n_c c, with the axis a, the unit vector e along the part of axis b across a, and c = a x e. The
+    # sines of the sides give n . a and -n . b, and |n| = 1 gives n_c
+    _, sine, e = across(two.axis, one.axis)
+    c, n_a = cross(one.axis, e), one.sine
     n_e = (-two.sine - dot(one.axis, two.axis) * n_a) / sine if sine > 0.0 else 0.0
     n_c_squared = 1.0 - n_a * n_a - n_e * n_e
     n_c = math.sqrt(max(n_c_squared, 0.0))
