@@ -107,8 +107,8 @@ def cross_sides(one: Side, two: Side, least_sine: float, size: float) -> SideCro
     the lines is at most ``least_sine``, there is no crossing: the middle of a line is returned, past the end of the
     sides by ``size``, the size of the bodies [m].
     """
-    # n = n_a a + n_e e + n_c c, with the axis a, the unit vector e along the part of axis b across a, and c = a x e. The
-    # sines of the sides give n . a and -n . b, and |n| = 1 gives n_c
+    # n = n_a a + n_e e + n_c c, with the axis a, the unit vector e along the part of axis b across a, and c = a x e.
+    # The sines of the sides give n . a and -n . b, and |n| = 1 gives n_c
     _, sine, e = across(two.axis, one.axis)
     c, n_a = cross(one.axis, e), one.sine
     n_e = (-two.sine - dot(one.axis, two.axis) * n_a) / sine if sine > 0.0 else 0.0
@@ -153,17 +153,14 @@ def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Flo
 class _Circle(NamedTuple):
     """A rim of one frustum, in the axes of the other one.
 
-    Its point at an angle is ``middle`` + ``radius`` (g cos(angle) + h sin(angle)).
+    Its point at an angle is ``middle`` + ``radius`` (g cos(angle) + h sin(angle)), with perpendicular unit vectors g
+    and h; lengths in m.
     """
 
     radius: float
-    """Radius [m]."""
     middle: Vector3
-    """Centre [m]."""
     g: Vector3
-    """Unit vector in the plane of the rim."""
     h: Vector3
-    """Unit vector in the plane of the rim, perpendicular to g."""
 
 
 @compiled

@@ -35,8 +35,10 @@ second is the sine of the angle of its normal outside of the normal cone of the 
 """
 _NEAR_BORDER = 1e-10
 """Tolerance of `by_search` in place of ``ON_BORDER``; the error of the gap, which is stationary, is only its square."""
+_LEAST_TILT, _MOST_TILT, _AZIMUTHS = 1e-16, 1e-7, 4
+"""Least and largest tilt of the normal from the axis tried at the border of a cap [rad]; number of azimuths tried."""
 _STEPS, _HALVINGS = 60, 40
-"""Largest number of Newton steps in a search on the side, and of halvings of a step."""
+"""Largest number of Newton steps in a search on the side, and of halvings of a step or a tilt."""
 _SEEN = 1e-14
 """Difference of two gaps that is round-off, relative to the size of both bodies."""
 Direction: TypeAlias = tuple[float, float]
@@ -98,6 +100,49 @@ def on_cap(pair: Pair, part: int, near: float) -> NearestPoint:
     if radius == 0.0 or p[0] * p[0] + p[1] * p[1] > (radius + near) * (radius + near):
         gap = math.nan
     return gap, p, (0.0, 0.0, up)
+
+
+@compiled
+def _on_end_of_cap(pair: Pair, part: int, near: float) -> NearestPoint:
+    """Return gap, point and normal as :func:`on_cap`, for a body so flat that round-off moves its lowest point.
+
+    If round-off moved the lowest point past the border of the cap, the normal is tilted outwards: the larger the tilt,
+    the farther inwards is the lowest point.  Two tilts are bisected, with lowest points inside and outside of the
+    border.  Between these two points, a point over the border is interpolated.  It is accepted if its gap, an upper
+    bound, exceeds the gap along the tilted normal, a lower bound, by at most ``near`` [m].
+    """
+    untilted = on_cap(pair, part, near)
+    radius, height, up = rim_of(pair.frustum, part)
+    cx, cy, _ = untilted[1]
+    if not math.isnan(untilted[0]) or not 0.0 < radius * radius < cx * cx + cy * cy:
+        return untilted
+    for _ in range(_AZIMUTHS):
+        # tilt towards the last point found at the border
+        away = math.sqrt(cx * cx + cy * cy)
+        ex, ey = cx / away, cy / away
+        px, py, pz = untilted[1]
+        low, high, tilt = 0.0, 0.0, _LEAST_TILT
+        gap, least_gap = 0.0, -math.inf
+        for _ in range(_HALVINGS):
+            qx, qy, qz = lowest_point(pair, (tilt * ex, tilt * ey, up))
+            inside = radius * radius - qx * qx - qy * qy
+            if inside > 0.0:
+                high = tilt
+                # the point over the border, on the line from q (inside of the border) to p (outside of it)
+                wx, wy = px - qx, py - qy
+                along, across = qx * wx + qy * wy, wx * wx + wy * wy
+                fraction = inside / (along + math.sqrt(along * along + across * inside))
+                cx, cy = qx + fraction * wx, qy + fraction * wy
+                cz = qz + fraction * (pz - qz)
+                gap, least_gap = up * (cz - height), tilt * (ex * qx + ey * qy - radius) + up * (qz - height)
+                if gap - least_gap <= near:
+                    return gap, (cx, cy, cz), (tilt * ex, tilt * ey, up)
+            else:
+                low, px, py, pz = tilt, qx, qy, qz
+            tilt = 0.5 * (low + high) if high > 0.0 else 10.0 * tilt
+            if tilt > _MOST_TILT:
+                return untilted
+    return untilted
 
 
 @compiled
@@ -232,7 +277,7 @@ def by_search(pair: Pair, direction: Direction, part: int) -> NearestPoint:
     """
     frustum, near = pair.frustum, _NEAR_BORDER * pair.size
     if part == LOW_CAP or part == HIGH_CAP:
-        return on_cap(pair, part, near)
+        return _on_end_of_cap(pair, part, near)
     if part == FLANK:
         return _if_on_flank(frustum, near, _along_side(pair, direction))
     (radius, _, up), (_, core, turn, center) = rim_of(frustum, part), from_rim(pair, part)
