@@ -15,24 +15,12 @@ from ...shapes.frustum import COS, LOW, LOW_RADIUS, SIDE, SIN, SWEEP
 from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus, plus_scaled, scaled
 from ..features.edge_crossing import PARALLEL, least_round_sine
 from ..features.ends import CLOSED, REACH
-from ..features.frames import across, tangent_of
+from ..features.frames import across
 from ..smooth.smooth_core import Axes, axes_in_world, rotated_back
 from .circle import least_sample, zero_of_slope
-from .frustum import (
-    FLANK,
-    LOW_RIM,
-    Placed,
-    Spot,
-    along_side,
-    normal_of_part,
-    off_cone_of_rim,
-    off_side,
-    past_border,
-    past_depth,
-    placed,
-    rim_of,
-    write_pair,
-)
+from .frustum import FLANK, along_side, normal_of_part, rim_of
+from .frustum_placed import Placed, placed
+from .frustum_writing import Spot, off_cone_of_rim, off_side, past_border, past_depth, write_pair
 
 _STEEP = math.pi / 6.0
 """Angle between the plane of the rim and the side [rad], above which the rim has one minimum of the height only."""
@@ -56,19 +44,6 @@ The offset [m] is the distance of the rims' cores, times the sine of the angle b
 normal of a side, the smaller one of both sides.  At a smaller offset, the contact of a rim with a side replaces this
 contact.
 """
-
-
-@compiled
-def _across_both(a: Vector3, b: Vector3) -> tuple[Vector3, float]:
-    """Return the unit vector along the product a x b of two unit vectors, and the sine of the angle between a and b.
-
-    If they are parallel, the sine is 0, and the vector is any unit vector perpendicular to them.
-    """
-    v = cross(a, b)
-    # the components of a small product along a are round-off
-    v = plus_scaled(v, -dot(v, a), a)
-    size = norm(v)
-    return (divided(v, size), size) if size > 0.0 else (tangent_of(a), 0.0)
 
 
 class Side(NamedTuple):
@@ -97,10 +72,10 @@ class SideCrossing(NamedTuple):
     """Normal from the first side to the second, in the world."""
     point: Vector3
     """Contact point of the first side in the world [m]."""
-    up: float
-    """Coordinate of this point up the first side, from its lower rim [m]."""
-    other_up: float
-    """Coordinate of the other contact point up the second side [m]."""
+    away: float
+    """Distance of this point from the axis of the first side [m]."""
+    other_away: float
+    """Distance of the other contact point from the axis of the second side [m]."""
     past_ends: float
     """Distance of the contact points past the ends of the sides [m]."""
     sine: float
@@ -132,10 +107,10 @@ def cross_sides(one: Side, two: Side, least_sine: float, size: float) -> SideCro
     the lines is at most ``least_sine``, there is no crossing: the middle of a line is returned, past the end of the
     sides by ``size``, the size of the bodies [m].
     """
-    # n = n_a a + n_e e + n_c c, with the axis a, and unit vectors c along a x b and e = c x a. The sines of the sides
-    # give n . a and -n . b, and |n| = 1 gives n_c
-    c, sine = _across_both(one.axis, two.axis)
-    e, n_a = cross(c, one.axis), one.sine
+    # n = n_a a + n_e e + n_c c, with the axis a, the unit vector e along the part of axis b across a, and c = a x e.
+    # The sines of the sides give n . a and -n . b, and |n| = 1 gives n_c
+    _, sine, e = across(two.axis, one.axis)
+    c, n_a = cross(one.axis, e), one.sine
     n_e = (-two.sine - dot(one.axis, two.axis) * n_a) / sine if sine > 0.0 else 0.0
     n_c_squared = 1.0 - n_a * n_a - n_e * n_e
     n_c = math.sqrt(max(n_c_squared, 0.0))
@@ -155,7 +130,9 @@ def cross_sides(one: Side, two: Side, least_sine: float, size: float) -> SideCro
         past_ends = max(max(-s, s - one.length), max(-t, t - two.length))
         # the distance along n of the points that cross: an error of n hardly changes it
         gap = dot(n, plus_scaled(plus_scaled(w, t, v), -s, u))
-    return SideCrossing(gap, n, plus_scaled(p, s, u), s, t, past_ends, abs(crossing))
+    # past an apex a point lies on its axis
+    away, other_away = max(one.radius - one.sine * s, 0.0), max(two.radius - two.sine * t, 0.0)
+    return SideCrossing(gap, n, plus_scaled(p, s, u), away, other_away, past_ends, abs(crossing))
 
 
 def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Floats, size: float) -> None:
@@ -166,10 +143,9 @@ def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Flo
     one, two = placed(a, first), placed(b, second)
     round_radius = first[LOW_RADIUS] + second[LOW_RADIUS] + first[SWEEP] + second[SWEEP]
     found = cross_sides(side_of(one), side_of(two), least_round_sine(round_radius, size), size)
-    # distances of the contact points from the axes are not negative past an apex
-    own = Spot(one, FLANK, minus(found.point, one.center), max(first[LOW_RADIUS] - first[SIN] * found.up, 0.0))
-    offset = minus(plus_scaled(found.point, found.gap, found.normal), two.center)
-    other = Spot(two, FLANK, offset, max(second[LOW_RADIUS] - second[SIN] * found.other_up, 0.0))
+    own = Spot(one, FLANK, minus(found.point, one.center), found.away)
+    other_point = plus_scaled(found.point, found.gap, found.normal)
+    other = Spot(two, FLANK, minus(other_point, two.center), found.other_away)
     past = max(past_border(found.past_ends, 0.0, size), past_depth(one, two, found.gap, size))
     write_pair(a, out, 0.0, found.gap, past, found.normal, found.point, own, other)
 
@@ -177,17 +153,14 @@ def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Flo
 class _Circle(NamedTuple):
     """A rim of one frustum, in the axes of the other one.
 
-    Its point at an angle is ``middle`` + ``radius`` (g cos(angle) + h sin(angle)).
+    Its point at an angle is ``middle`` + ``radius`` (g cos(angle) + h sin(angle)), with perpendicular unit vectors g
+    and h; lengths in m.
     """
 
     radius: float
-    """Radius [m]."""
     middle: Vector3
-    """Centre [m]."""
     g: Vector3
-    """Unit vector in the plane of the rim."""
     h: Vector3
-    """Unit vector in the plane of the rim, perpendicular to g."""
 
 
 @compiled
@@ -275,7 +248,7 @@ def evaluate_rim_over_side(
     """
     own, other = (b, a) if swap == 1.0 else (a, b)
     one, two, axes = placed(own, first), placed(other, second), axes_in_world(other, second)
-    radius, height, up = rim_of(first, rim)
+    radius, height, _ = rim_of(first, rim)
     # in world axes: centre of the rim from that of the side; unit vectors h, along the projection of the side's axis on
     # the plane of the rim, and g, perpendicular to h
     middle = minus(plus_scaled(one.center, height, one.axis), two.center)
@@ -301,9 +274,11 @@ def evaluate_rim_over_side(
         _, _, of_side = across(opposite(of_rim), two.axis)
     gap, up_side = along_side(second, along, away)
     n = opposite(normal_of_part(two.axis, of_side, second[COS], second[SIN]))
-    # check that the contact normal is a normal of the rim
-    axial = dot(n, one.axis)
-    radial = dot(n, of_rim) if radius > 0.0 else math.sqrt(max(1.0 - axial * axial, 0.0))
+    if radius == 0.0:
+        # the normals of an apex are those of a rim in all directions
+        _, _, of_rim = across(n, one.axis)
+    own_spot = Spot(one, int(rim), of_rim, radius)
+    other_spot = Spot(two, FLANK, of_side, max(away - gap * second[COS], 0.0))
     past_ends = max(-up_side, up_side - second[SIDE])
     if first[SWEEP] + second[SWEEP] > 0.0:
         # extend the side past its end, until the contact of both rims is valid
@@ -311,13 +286,9 @@ def evaluate_rim_over_side(
     if not has_minimum or (is_steep and half < 0.0):
         # a steep pose has one minimum: that contact belongs to one half only
         past_ends = size
-    past = past_border(past_ends, off_cone_of_rim(first, up, radial, axial), size)
+    past = past_border(past_ends, off_cone_of_rim(own_spot, n), size)
     past = max(past, past_depth(one, two, gap, size))
-    rim_spot, side_spot = (
-        Spot(one, int(rim), of_rim, radius),
-        Spot(two, FLANK, of_side, max(away - gap * second[COS], 0.0)),
-    )
-    write_pair(a, out, swap, gap, past, n, plus(two.center, point), rim_spot, side_spot)
+    write_pair(a, out, swap, gap, past, n, plus(two.center, point), own_spot, other_spot)
 
 
 @compiled
@@ -361,13 +332,6 @@ def _nearest_angle(circle: _Circle, other_radius: float) -> float:
     return float(zero_of_slope(_squared_distance, (circle, other_radius), angle, angle - step, angle + step))
 
 
-@compiled
-def off_rim(spot: Spot, up: float, n: Vector3) -> float:
-    """Return the sine of the angle between a normal n and the normal cone of a rim, as :func:`off_cone_of_rim`."""
-    numbers, _, axis = spot.frustum
-    return off_cone_of_rim(numbers, up, dot(spot.offset, n), dot(axis, n))
-
-
 def evaluate_rims(
     a: Floats,
     b: Floats,
@@ -387,7 +351,7 @@ def evaluate_rims(
     of the bodies [m].
     """
     one, two, axes = placed(a, first), placed(b, second), axes_in_world(b, second)
-    (radius, height, up_a), (other_radius, other_height, up_b) = rim_of(first, rim_a), rim_of(second, rim_b)
+    (radius, height, _), (other_radius, other_height, _) = rim_of(first, rim_a), rim_of(second, rim_b)
     other_center = plus_scaled(two.center, other_height, two.axis)
     # in world axes: centre of the first rim, from that of the second; unit vectors g, in the plane of the first rim
     # towards the second rim's centre, and h, perpendicular to it
@@ -413,7 +377,7 @@ def evaluate_rims(
     w = minus(scaled(other_radius, e), point)
     # of two discs edge to edge, the second rim has the curvature of a cylinder's side, so that the normal stays radial
     # while one edge slips over the other
-    own, other = Spot(one, LOW_RIM, u, radius), Spot(two, FLANK if is_edge_to_edge else LOW_RIM, e, other_radius)
+    own, other = Spot(one, int(rim_a), u, radius), Spot(two, FLANK if is_edge_to_edge else int(rim_b), e, other_radius)
     # normal: cross product of both tangents
     n = cross(t, cross(two.axis, e))
     sine, apart = norm(n), norm(w)
@@ -427,15 +391,14 @@ def evaluate_rims(
         n, sine = u, 1.0 if is_edge_to_edge else 0.0
     else:
         n = divided(n, sine)
-    off_cone = max(off_rim(own, up_a, n), off_rim(other, up_b, opposite(n)))
-    off_reversed = max(off_rim(own, up_a, opposite(n)), off_rim(other, up_b, n))
+    off_cone = max(off_cone_of_rim(own, n), off_cone_of_rim(other, opposite(n)))
+    off_reversed = max(off_cone_of_rim(own, opposite(n)), off_cone_of_rim(other, n))
     if off_reversed <= off_cone and not are_cores_apart:
         # the sign for which the normal is nearer to the normal cones of both rims
         n, off_cone = opposite(n), off_reversed
     gap = dot(n, w)
     past = past_border(-size, off_cone, size)
-    off_side_a = off_side(first, up_a, dot(n, u), dot(n, one.axis))
-    off_side_b = off_side(second, up_b, -dot(n, e), -dot(n, two.axis))
+    off_side_a, off_side_b = off_side(own, n), off_side(other, opposite(n))
     if is_round:
         # if the normal is close to a side's normal, the contact of a rim over the side applies
         past = max(past, _ASIDE * size - apart * min(off_side_a, off_side_b))

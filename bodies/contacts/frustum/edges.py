@@ -13,7 +13,6 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import GAP, PAST_END, POINT_A, POINT_B, SIDE_A, SIDE_B
 from nonsmooth.types import Floats
 
-from ...shapes.frustum import LOW_RADIUS, SIN
 from ...shapes.frustum import SWEEP as FRUSTUM_SWEEP
 from ...vectors import (
     Vector3,
@@ -38,17 +37,10 @@ from ..surface.overlap_corners import FLUSH
 from ..surface.surface_search import past_edge, signed_distance
 from ..surface.surface_tables import IS_CONVEX, N_TRIANGLES, SWEEP, Solid, edge_at
 from .circle import zero_of_slope
-from .crossings import Side, cross_sides, off_rim, side_of
-from .frustum import (
-    FLANK,
-    Placed,
-    Spot,
-    from_core,
-    past_border,
-    placed,
-    rim_of,
-    write_spot,
-)
+from .crossings import Side, cross_sides, side_of
+from .frustum import FLANK, rim_of
+from .frustum_placed import Placed, from_core, placed
+from .frustum_writing import Spot, off_cone_of_rim, past_border, write_spot
 from .over_faces import frustum_in_surface, past_faces
 
 _STEEP = 0.5
@@ -117,12 +109,12 @@ def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[f
 
 
 @compiled
-def _off_cones(of_rim: Spot, up: float, edge: Edge, n: Vector3) -> float:
+def _off_cones(of_rim: Spot, edge: Edge, n: Vector3) -> float:
     """Return the sine of the angle between a normal n and the normal cones of a rim and of an edge, the larger one.
 
-    n leads from the rim, the upper one if ``up`` is 1, else -1, to the edge; the sine is negative inside of both cones.
+    n leads from the rim to the edge; the sine is negative inside of both cones.
     """
-    return max(off_rim(of_rim, up, n), sine_off_cone(edge, -1.0, n))
+    return max(off_cone_of_rim(of_rim, n), sine_off_cone(edge, -1.0, n))
 
 
 @compiled
@@ -134,7 +126,7 @@ def _cross_rim(frustum: Placed, rim: float, half: float, edge: Edge, is_round: b
     The other arguments are those of :func:`write_across_rim`.
     """
     (numbers, center, axis), d = frustum, direction_of(edge)
-    radius, height, up = rim_of(numbers, rim)
+    radius, height, _ = rim_of(numbers, rim)
     middle = plus_scaled(center, height, axis)
     start = minus(start_of(edge), middle)
     # unit vectors f: along the edge's projection on the plane of the rim; g: perpendicular to the edge, in this plane;
@@ -168,7 +160,7 @@ def _cross_rim(frustum: Placed, rim: float, half: float, edge: Edge, is_round: b
         n = divided(n, crossing_sine)
     else:
         n = e
-    off_cone, off_reversed = _off_cones(spot, up, edge, n), _off_cones(spot, up, edge, opposite(n))
+    off_cone, off_reversed = _off_cones(spot, edge, n), _off_cones(spot, edge, opposite(n))
     if off_reversed <= off_cone and not are_cores_apart:
         # the sign for which the normal is nearer to the normal cones of rim and edge
         n, off_cone = opposite(n), off_reversed
@@ -256,7 +248,7 @@ def write_across_side(a: Floats, out: Floats, frustum: Floats, edge: Edge, surfa
     one = placed(a, frustum)
     line = Side(start_of(edge), direction_of(edge), 0.0, edge.row[LENGTH], 1.0, 0.0)
     found = cross_sides(side_of(one), line, PARALLEL, size)
-    spot = Spot(one, FLANK, minus(found.point, one.center), max(frustum[LOW_RADIUS] - frustum[SIN] * found.up, 0.0))
+    spot = Spot(one, FLANK, minus(found.point, one.center), found.away)
     crossing = _Crossing(spot, found.point, found.normal, found.gap, found.past_ends, -1.0, found.sine)
     _write_crossing(a, out, edge, surface, crossing, size)
 
@@ -267,11 +259,10 @@ def write_across_rim(
 ) -> None:
     """Write the geometry block of an edge of a ``surface`` that crosses one half of a rim.
 
-    An edge that lies across a cap crosses its rim twice, so that there are two contacts, one on either half.  The rims
-    are set back by the feet (:func:`bodies.contacts.frustum.frustum.set_back`); ``rim`` is 1 for the lower rim, 3 for
-    the upper one.  ``half`` is 1 for the half circle towards which the edge points, seen along the axis; -1 for the
-    opposite half circle.  For an edge at less than 60 degrees to the axis, both are the half circle nearer to the edge,
-    and one of them has the contact.
+    An edge that lies across a cap crosses its rim twice, so that there are two contacts, one on either half.  ``rim``
+    is 1 for the lower rim, 3 for the upper one.  ``half`` is 1 for the half circle towards which the edge points, seen
+    along the axis; -1 for the opposite half circle.  For an edge at less than 60 degrees to the axis, both are the half
+    circle nearer to the edge, and one of them has the contact.
     """
     is_round = surface[SWEEP] + frustum[FRUSTUM_SWEEP] > 0.0
     crossing = _cross_rim(placed(a, frustum), rim, half, edge, is_round, size)

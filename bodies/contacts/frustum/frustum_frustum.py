@@ -18,31 +18,10 @@ from ...vectors import Vector3, dot, minus, norm, plus_scaled, scaled, vector_at
 from ..features.ends import CLOSED, END, NEAR, REACH
 from ..features.frames import across, point_in_world
 from .crossings import evaluate_rim_over_side, evaluate_rims, evaluate_sides
-from .frustum import (
-    FLATTEST,
-    HIGH_CAP,
-    HIGH_RIM,
-    LOW_CAP,
-    LOW_RIM,
-    Placed,
-    Spot,
-    along_side,
-    from_axis,
-    from_core,
-    nearest_part,
-    part_names,
-    part_number,
-    past_apex,
-    past_depth,
-    past_of_rim,
-    placed,
-    rim_of,
-    rims_of,
-    separation_along,
-    separation_by_second,
-    set_back,
-    write_pair,
-)
+from .frustum import HIGH_CAP, HIGH_RIM, LOW_CAP, LOW_RIM, along_side, nearest_part, part_number, rim_of
+from .frustum_features import part_names, rims_of, set_back
+from .frustum_placed import Placed, from_axis, from_core, placed, separation_along, separation_by_second
+from .frustum_writing import FLATTEST, Spot, past_apex, past_depth, past_of_rim, write_pair
 
 _RIM_NAMES = {LOW_RIM: "rim 0", HIGH_RIM: "rim 1"}
 """Words for the rims in the names of features."""

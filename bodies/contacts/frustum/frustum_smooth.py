@@ -43,21 +43,11 @@ from ..smooth.smooth_core import (
     spread,
 )
 from ..smooth.smooth_newton import write_surface
-from .frustum import (
-    FLANK,
-    HIGH_CAP,
-    HIGH_RIM,
-    LOW_CAP,
-    LOW_RIM,
-    Spot,
-    nearest_part,
-    part_names,
-    part_number,
-    placed,
-    rim_of,
-    write_spot,
-)
+from .frustum import FLANK, HIGH_CAP, HIGH_RIM, LOW_CAP, LOW_RIM, nearest_part, part_number, rim_of
+from .frustum_features import part_names
+from .frustum_placed import placed
 from .frustum_stops import ON_BORDER, Pair, by_search, from_rim, on_cap, on_flank, on_rim
+from .frustum_writing import Spot, write_spot
 
 _SHALLOW = 1e-8
 """Overlap up to which the first local maximum of the gap found is taken as the largest, relative to the size."""

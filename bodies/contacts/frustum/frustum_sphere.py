@@ -17,18 +17,10 @@ from ..features.ends import ended_gap, past_vertex
 from ..features.frames import point_in_world
 from ..features.vertex import Vertex
 from ..features.writing import place_sphere, write_round
-from .frustum import (
-    HIGH_CAP,
-    LOW_CAP,
-    Spot,
-    from_axis,
-    nearest_part,
-    normal_of_part,
-    part_names,
-    part_number,
-    placed,
-    write_spot,
-)
+from .frustum import HIGH_CAP, LOW_CAP, nearest_part, normal_of_part, part_number
+from .frustum_features import part_names
+from .frustum_placed import from_axis, placed
+from .frustum_writing import Spot, write_spot
 
 
 @compiled

@@ -23,6 +23,7 @@ from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus
 from ..features.edge_crossing import CONE_MARGIN
 from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH, START, Edge
 from ..features.ends import CLOSED
+from ..features.frames import tangent_of
 from ..features.vertex import Vertex, steepest
 from ..features.writing import NO_CANDIDATE, write_apart
 from ..surface.surface_near import Near, patches_near, patches_under, room_ahead
@@ -46,24 +47,9 @@ from ..surface.surface_tables import (
 )
 from ..surface.surface_tree import members_at, node_at
 from .edges import write_across_rim, write_across_side
-from .frustum import (
-    FLANK,
-    HIGH_CAP,
-    HIGH_RIM,
-    LOW_CAP,
-    LOW_RIM,
-    Placed,
-    from_axis,
-    from_core,
-    nearest_part,
-    normal_of_part,
-    over_part,
-    part_names,
-    rim_of,
-    rims_of,
-    set_back,
-    tips_of,
-)
+from .frustum import FLANK, HIGH_CAP, HIGH_RIM, LOW_CAP, LOW_RIM, nearest_part, normal_of_part, over_part, rim_of
+from .frustum_features import part_names, rims_of, set_back, tips_of
+from .frustum_placed import Placed, from_axis, from_core
 from .frustum_sphere import write_frustum_vertex
 from .over_faces import frustum_in_surface, lowest_on_rim, write_apex, write_corner, write_rim, write_tip
 
@@ -80,8 +66,6 @@ _PIECES = 16
 """Largest number of pieces of an edge, each of which is compared with a rim."""
 _SHARP = 1e-3
 """Margin for round-off of angles [rad], and length of the sum of two unit normals below which it has no direction."""
-_ANY = (1.0, 0.0, 0.0)
-"""Direction to the lowest point of a rim parallel to a face: any unit vector, for the bound of :func:`_swing`."""
 POINT_ROW, N_DIRECTIONS = 4, 3
 """Floats in the row of a point (foot or apex) before its unit vectors: position (3) [m], number of unit vectors.
 
@@ -132,7 +116,7 @@ def _swing(radial: float, turn: float) -> float:
 def _rim_is_near(search: _Search, row: Floats, rim: int) -> bool:
     """Return whether a rim may touch a triangle, by its row, at its point that is lowest over it."""
     surface, frustum, reach, turn, _ = search
-    lowest = lowest_on_rim(frustum, rim, opposite(normal_of(surface, int(row[FACE_NUMBER]))), _ANY)
+    lowest = lowest_on_rim(frustum, rim, opposite(normal_of(surface, int(row[FACE_NUMBER]))), tangent_of(frustum.axis))
     if lowest.off_cone > CONE_MARGIN + turn:
         return False
     # a cheap test first: the whole rim and a ball about the triangle
@@ -141,8 +125,7 @@ def _rim_is_near(search: _Search, row: Floats, rim: int) -> bool:
     radius = max(norm(minus(p, middle)), norm(minus(q, middle)), norm(minus(r, middle)))
     if _from_rim(frustum, rim, middle) > reach + radius:
         return False
-    rim_radius, _, _ = rim_of(frustum.numbers, rim)
-    return distance_from_triangle(row, lowest.point) <= reach + rim_radius * _swing(lowest.radial, turn)
+    return distance_from_triangle(row, lowest.point) <= reach + lowest.spot.away * _swing(lowest.radial, turn)
 
 
 @compiled
@@ -194,11 +177,11 @@ def _rim_crosses(search: _Search, rim: int, normal: Vector3, most_angle: float, 
     """
     frustum, reach = search.frustum, search.reach
     start, along, length = vector_at(edge, START), vector_at(edge, ALONG), edge[LENGTH]
-    lowest = lowest_on_rim(frustum, rim, normal, _ANY)
+    lowest = lowest_on_rim(frustum, rim, normal, tangent_of(frustum.axis))
     if lowest.off_cone > most_angle:
         return False
     # the edge must be near the lowest point, which moves round the rim as the normal turns
-    radius, _, _ = rim_of(frustum.numbers, rim)
+    radius = lowest.spot.away
     most = reach + radius * _swing(lowest.radial, most_angle)
     s = min(max(dot(minus(lowest.point, start), along), 0.0), length)
     apart = minus(plus_scaled(start, s, along), lowest.point)

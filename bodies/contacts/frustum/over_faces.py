@@ -47,25 +47,9 @@ from ..surface.surface_tables import (
 )
 from ..surface.surface_tree import ANY_PATCH, next_leaf
 from ..surface.surface_vertex import face_under, over_triangle
-from .frustum import (
-    FLANK,
-    HIGH_CAP,
-    LOW_CAP,
-    LOW_RIM,
-    Placed,
-    Spot,
-    from_axis,
-    least_height,
-    normal_of_part,
-    off_cone_of_rim,
-    over_part,
-    part_number,
-    past_apex,
-    past_of_rim,
-    placed,
-    rim_of,
-    write_spot,
-)
+from .frustum import FLANK, HIGH_CAP, LOW_CAP, normal_of_part, over_part, part_number, rim_of
+from .frustum_placed import Placed, from_axis, least_height, placed
+from .frustum_writing import Spot, off_cone_of_rim, past_apex, past_of_rim, write_spot
 
 _FLAT = 1e-12
 """Sine of the angle between the planes of rim and face below which the lowest point of the rim is round-off."""
@@ -81,12 +65,12 @@ def frustum_in_surface(a: Floats, b: Floats, frustum: Floats) -> Placed:
 class Lowest(NamedTuple):
     """The point of a rim that is farthest along a unit vector n, which points into the other body."""
 
+    spot: Spot
+    """The point on the rim; the offset is a unit vector across the axis."""
     point: Vector3
     """The point [m]."""
-    outward: Vector3
-    """Unit vector to the point from the rim's centre."""
     radial: float
-    """Component of n along ``outward``: the sine of the angle between n and the axis."""
+    """Component of n across the axis: the sine of the angle between n and the axis."""
     off_cone: float
     """Sine of the angle between n and the normal cone of the rim, negative inside of this cone."""
 
@@ -95,16 +79,14 @@ class Lowest(NamedTuple):
 def lowest_on_rim(frustum: Placed, rim: int, n: Vector3, otherwise: Vector3) -> Lowest:
     """Return the point of a rim, ``LOW_RIM`` or ``HIGH_RIM``, that is farthest along n.
 
-    If n is along the axis within round-off, all points are equally far: the result is the one in the direction
-    ``otherwise``.
+    If n is along the axis within round-off, all points are equally far: the result is the one in the direction of the
+    unit vector ``otherwise``, across the axis.
     """
-    numbers, center, axis = frustum
-    radius, height, up = rim_of(numbers, rim)
-    axial, radial, outward = across(n, axis)
-    if radial < _FLAT:
-        outward = otherwise
-    point = plus_scaled(plus_scaled(center, height, axis), radius, outward)
-    return Lowest(point, outward, radial, off_cone_of_rim(numbers, up, radial, axial))
+    radius, height, _ = rim_of(frustum.numbers, rim)
+    _, radial, outward = across(n, frustum.axis)
+    spot = Spot(frustum, rim, otherwise if radial < _FLAT else outward, radius)
+    point = plus_scaled(plus_scaled(frustum.center, height, frustum.axis), radius, spot.offset)
+    return Lowest(spot, point, radial, off_cone_of_rim(spot, n))
 
 
 @compiled
@@ -148,21 +130,18 @@ def _is_real(surface: Floats, frustum: Placed, depth: float, point: Vector3) -> 
 
 
 @compiled
-def _rim_over(
-    surface: Floats, face: int, frustum: Placed, low: Lowest, radius: float, reach: float
-) -> tuple[float, float]:
+def _rim_over(surface: Floats, face: int, low: Lowest, reach: float) -> tuple[float, float]:
     """Return gap and distance past the border [m] of a rim over a face; the gap includes the sweeps of both bodies.
 
-    The gap is measured at the point of the rim that is lowest over the face, ``low``.  A point past the border of the
-    face, at the distance ``past``, has the gap hypot(height, past).  If no part of the face is within ``reach`` [m] of
-    the point, both results are at least ``reach``, less the sweeps.
+    The gap is measured at the point of the rim that is lowest over the face, in the axes of the surface.  A point past
+    the border of the face, at the distance ``past``, has the gap hypot(height, past).  If no part of the face is within
+    ``reach`` [m] of the point, both results are at least ``reach``, less the sweeps.
 
     The lowest point of a rim nearly parallel to the face moves far while the bodies hardly move.  Above the face the
-    distance past the border is therefore reduced (:func:`bodies.contacts.frustum.frustum.past_of_rim`).
-
-    ``frustum`` and ``low`` are in the axes of the surface; ``radius`` is that of the rim [m].
+    distance past the border is therefore reduced (:func:`bodies.contacts.frustum.frustum_writing.past_of_rim`).
     """
-    point, size, sweep = low.point, surface[SIZE], frustum.numbers[FRUSTUM_SWEEP] + surface[SWEEP]
+    frustum, point, size = low.spot.frustum, low.point, surface[SIZE]
+    sweep = frustum.numbers[FRUSTUM_SWEEP] + surface[SWEEP]
     height, past_cone = face_height(surface, face, point), size * (low.off_cone - CONE_MARGIN)
     least_key, apart, past = reach * reach, reach, reach
     is_under, past_under = False, 0.0
@@ -184,7 +163,7 @@ def _rim_over(
     if past <= 0.0:
         return height - sweep, past
     if height > sweep:
-        past = past_of_rim(past, radius, low.radial)
+        past = past_of_rim(past, low.spot.away, low.radial)
     is_convex = surface[IS_CONVEX] == 1.0
     return gap_past_end((height if height >= 0.0 or is_convex else apart) - sweep, past, is_convex), past
 
@@ -200,15 +179,14 @@ def write_rim(a: Floats, out: Floats, frustum: Floats, rim: int, solid: Solid, f
     one, two, n = placed(a, frustum), frustum_in_surface(a, b, frustum), opposite(normal_of(surface, face))
     # the frustum's first axis, perpendicular to its own
     otherwise = vector_in_world(a, (frustum[AXIS - 2], frustum[AXIS + 1], frustum[AXIS + 4]))
-    radius, _, _ = rim_of(frustum, rim)
-    # any point of the rim may become the lowest one
     low = lowest_on_rim(two, rim, n, vector_in_body(b, otherwise))
-    gap, past = _rim_over(surface, face, two, low, radius, reach + 2.0 * radius)
+    # any point of the rim may become the lowest one
+    gap, past = _rim_over(surface, face, low, reach + 2.0 * low.spot.away)
     n = vector_in_world(b, n)
     low = lowest_on_rim(one, rim, n, otherwise)
     point = plus_scaled(low.point, frustum[FRUSTUM_SWEEP], n)
     write_contact(a, out, gap, past, float(face), n, point, False)
-    write_spot(out, SIDE_A, Spot(one, LOW_RIM, low.outward, radius), n)
+    write_spot(out, SIDE_A, low.spot, n)
     write_flat(out, SIDE_B)
 
 
@@ -267,20 +245,18 @@ def write_apex(a: Floats, out: Floats, frustum: Floats, solid: Solid, patch: flo
 
 
 @compiled
-def _tip_past_rim(
-    b: Floats, vertex: Vertex, lengths: Floats, p: Vector3, n: Vector3, depth: float, radius: float
-) -> float:
+def _tip_past_rim(b: Floats, vertex: Vertex, lengths: Floats, disc: Placed, n: Vector3, depth: float) -> float:
     """Return a length [m] that is negative if a vertex behind a disc went through the disc.
 
     Each edge of the vertex that leads back through the disc's plane crosses it at a distance from the disc's centre.
-    The result is the least of these distances, minus ``radius``, plus ``depth``; it is infinite if no edge crosses the
-    plane.  A negative result means that an edge crosses the disc inside of the rim by more than ``depth``.  Otherwise
-    the edges pass the rim from the side.
+    The result is the least of these distances, minus the disc's radius, plus ``depth``; it is infinite if no edge
+    crosses the plane.  A negative result means that an edge crosses the disc inside of the rim by more than ``depth``.
+    Otherwise the edges pass the rim from the side.
 
-    ``lengths`` are those of the edges of the ``vertex`` of body ``b`` [m].  In the world, ``p`` is the vertex from the
-    centre of the disc [m], and ``n`` the unit normal of the disc.  ``depth`` is the distance of the vertex from the
-    disc's plane in the direction -n, ``radius`` is that of the disc [m].
+    The ``vertex`` of body ``b`` has edges of the ``lengths`` [m].  ``depth`` is its distance from the disc's plane [m]
+    in the direction -n, with the unit normal n of the disc in the world.
     """
+    p = minus(point_in_world(b, vertex.place), disc.center)
     least = math.inf
     for i in range(int(vertex.n_star)):
         edge = vector_in_world(b, vector_at(vertex.star, 3 * i))
@@ -290,7 +266,7 @@ def _tip_past_rim(
             continue
         crossing = plus_scaled(p, depth / rise, edge)
         along = dot(n, crossing)
-        least = min(least, math.sqrt(max(dot(crossing, crossing) - along * along, 0.0)) - radius)
+        least = min(least, math.sqrt(max(dot(crossing, crossing) - along * along, 0.0)) - disc.numbers[LOW_RADIUS])
     return least + depth
 
 
@@ -327,8 +303,7 @@ def write_corner(
             # a corner behind a disc touches it only if its edges go through the disc, or if the corner's body encloses
             # the point of the disc nearest to the corner
             own_lengths = block_at(lengths, int(corner_row(surface, corner)[STAR]) // 3)
-            from_center = minus(point, one.center)
-            past_rim = _tip_past_rim(b, vertex, own_lengths, from_center, n, -height, frustum[LOW_RADIUS])
+            past_rim = _tip_past_rim(b, vertex, own_lengths, one, n, -height)
             foot = vector_in_body(b, minus(plus_scaled(point, -height, n), vector_at(b, POSITION)))
             if past_rim > 0.0 and depth_inside(surface, foot) == 0.0:
                 past_border = min(-height, past_rim)
