@@ -22,10 +22,10 @@ from nonsmooth.types import Floats
 
 from ...shapes.frustum import COS, HIGH, LOW, LOW_RADIUS, SIDE, SIN, SWEEP, Frustum
 from ...shapes.smooth import SmoothShape
-from ...vectors import minus, opposite, plus, plus_scaled, vector_at
+from ...vectors import Vector3, minus, opposite, plus, plus_scaled, vector_at
 from ..features.frames import point_in_world
 from ..features.writing import write_contact
-from ..smooth.inscribed import is_least_overlap
+from ..smooth.inscribed import gauge, is_least_overlap
 from ..smooth.overlap_proof import do_overlap
 from ..smooth.round_search import up_hills
 from ..smooth.smooth_core import (
@@ -58,6 +58,12 @@ Below it the direction from the axis to the centre is round-off, and the search 
 """
 _LARGER = 1e-14
 """Least difference of two local maxima of the gap, relative to the size; a smaller difference is round-off."""
+_DEEP = 0.9
+"""Gauge of the core below which an overlap is deep, at the frustum's point nearest to the core's centre.
+
+The gauge is 0 at the centre and 1 on the surface.  At a deep overlap some searches are left out, because they may end
+at a smaller local maximum of the gap.
+"""
 _TURNS = 8
 """Number of directions around the axis at which searches start, if the direction to the core's centre fails."""
 
@@ -74,6 +80,19 @@ def _contains_ball(pair: Pair, part: int, found: NearestPoint) -> bool:
     x, y, z = found[1]
     outside, _, _, _ = nearest_part(pair.frustum, z, math.sqrt(x * x + y * y))
     return bool(outside <= found[0] + ON_BORDER * pair.size)
+
+
+@compiled
+def _gauge_near(pair: Pair, point: Vector3) -> float:
+    """Return the gauge of the core at the frustum's point nearest to a point [1]; a point inside is its own."""
+    x, y, z = point
+    away = math.sqrt(x * x + y * y)
+    distance, radial, axial, _ = nearest_part(pair.frustum, z, away)
+    if distance > 0.0:
+        # relative change of the distance from the axis
+        inwards = distance * radial / away if away > 0.0 else 0.0
+        point = x - inwards * x, y - inwards * y, z - distance * axial
+    return float(gauge(pair.core, rotated_back(pair.turn, minus(point, pair.place))))
 
 
 @compiled
@@ -102,8 +121,10 @@ def _nearest(pair: Pair) -> tuple[NearestPoint, int]:
     best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
     best_part = LOW_CAP
     in_core = Cores(pair.point, core, pair.turn, place)
-    is_sharp = max(core[POWERS], core[POWERS + 1]) > 2.0
+    is_deep, is_sharp = False, max(core[POWERS], core[POWERS + 1]) > 2.0
     for start in range(_TURNS + 4):
+        if start == 1:
+            is_deep = _gauge_near(pair, place) < _DEEP
         # start 0: normals towards the centre; 1: the searches of `by_search`; 2, 3: normals near the side's, near the
         # cap's; from 4 on: directions all around the axis
         tilt = -0.5 if start == 0 else 0.05 if start == 2 else 0.95 if start == 3 else 0.5
@@ -117,7 +138,8 @@ def _nearest(pair: Pair) -> tuple[NearestPoint, int]:
             is_rim = part == LOW_RIM or part == HIGH_RIM
             if part < LOW_CAP or part > HIGH_CAP or (frustum[SIDE] == 0.0 and (part == FLANK or part == HIGH_RIM)):
                 continue
-            if not is_rim and (start == 2 or start == 3):
+            if (not is_rim and (start == 2 or start == 3)) or (start == 1 and is_deep):
+                # at a deep overlap the gap has several maxima, of which `by_search` may find a smaller one
                 continue
             if start == 1:
                 found = by_search(pair, direction, part)
@@ -134,7 +156,7 @@ def _nearest(pair: Pair) -> tuple[NearestPoint, int]:
                     return best, best_part
                 if is_least_overlap(in_core, found):
                     return best, best_part
-    if (is_sharp and best[0] < 0.0) or math.isnan(best[0]):
+    if (is_sharp and not is_deep and best[0] < 0.0) or math.isnan(best[0]):
         # next to a ridge or a tip of the core the local maximum with the smallest depth may have been missed
         found, part = _on_rims(pair)
         if not math.isnan(found[0]) and not found[0] <= best[0] + _LARGER * size:
