@@ -31,7 +31,6 @@ from ..smooth.round_search import up_hills
 from ..smooth.smooth_core import (
     CENTER,
     POINT,
-    POWERS,
     RADIUS,
     Cores,
     NearestPoint,
@@ -88,7 +87,7 @@ def _nearest(pair: Pair) -> tuple[NearestPoint, int]:
     are done.  The proofs of an overlap are balls inside of one of the bodies that touch its surface at the contact
     point, with the depth as radius (:func:`_contains_ball`, :mod:`bodies.contacts.smooth.inscribed`).
     """
-    frustum, core, place, size = pair.frustum, pair.cores.second, pair.cores.center, pair.size
+    frustum, place, size = pair.frustum, pair.cores.center, pair.size
     x, y, z = place
     away = math.sqrt(x * x + y * y)
     # direction from the axis at which the searches start
@@ -101,7 +100,6 @@ def _nearest(pair: Pair) -> tuple[NearestPoint, int]:
             return found, part
     best: NearestPoint = (math.nan, place, (0.0, 0.0, 1.0))
     best_part = LOW_CAP
-    is_sharp = max(core[POWERS], core[POWERS + 1]) > 2.0
     for start in range(_TURNS + 4):
         # start 0: normals towards the centre; 1: the searches of `by_search`; 2, 3: normals near the side's, near the
         # cap's; from 4 on: directions all around the axis
@@ -133,8 +131,8 @@ def _nearest(pair: Pair) -> tuple[NearestPoint, int]:
                     return best, best_part
                 if is_least_overlap(pair.cores, found):
                     return best, best_part
-    if (is_sharp and best[0] < 0.0) or math.isnan(best[0]):
-        # next to a ridge or a tip of the core the local maximum with the smallest depth may have been missed
+    if not best[0] >= 0.0:
+        # the local maximum with the smallest depth may have been missed, as next to a ridge or a tip of the core
         found, part = _on_rims(pair)
         if not math.isnan(found[0]) and not found[0] <= best[0] + _LARGER * size:
             best, best_part = found, part
