@@ -242,13 +242,7 @@ def on_rim(pair: Pair, direction: Direction, part: int, tilt: float) -> NearestP
     the rim to the core's centre lies between these two normals, the search starts with this direction.
     """
     frustum, (ex, ey) = pair.frustum, direction
-    (radius, height, up), cores = rim_of(frustum, part), from_rim(pair, part)
-    if radius > 0.0:
-        # if the smooth body's lowest point is over the disc in the circle, the largest gap is along the axis
-        for sign in (-1.0, 1.0):
-            p = lowest_point(pair, (0.0, 0.0, sign))
-            if sign * (p[2] - height) >= 0.0 and p[0] * p[0] + p[1] * p[1] <= radius * radius:
-                return math.nan, p, (0.0, 0.0, sign)
+    (radius, _, up), cores = rim_of(frustum, part), from_rim(pair, part)
     is_disc = frustum[SIDE] == 0.0
     # direction from the rim's point to the core's centre, or else the interpolated normal
     x, y, axial = cores.center
