@@ -8,6 +8,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import NORMAL, POSITION, ROTATION, TANGENT
 from nonsmooth.types import Floats
 
+from ...rotations import Axes, rotated, rotated_back
 from ...shapes.placement import turned
 from ...vectors import Vector3, divided, dot, minus, norm, scaled, vector_at, write_vector
 
@@ -24,25 +25,22 @@ def point_in_world(frame: Floats, point: Vector3) -> Vector3:
 
 
 @compiled
+def axes_of(frame: Floats) -> Axes:
+    """Return the axes of a body in the world, as columns."""
+    x, y, z = vector_at(frame, ROTATION), vector_at(frame, ROTATION + 3), vector_at(frame, ROTATION + 6)
+    return x[0], x[1], x[2], y[0], y[1], y[2], z[0], z[1], z[2]
+
+
+@compiled
 def vector_in_world(frame: Floats, vector: Vector3) -> Vector3:
     """Return the components in world axes of a vector given in body axes."""
-    x, y, z = vector
-    return (
-        frame[ROTATION] * x + frame[ROTATION + 1] * y + frame[ROTATION + 2] * z,
-        frame[ROTATION + 3] * x + frame[ROTATION + 4] * y + frame[ROTATION + 5] * z,
-        frame[ROTATION + 6] * x + frame[ROTATION + 7] * y + frame[ROTATION + 8] * z,
-    )
+    return rotated(axes_of(frame), vector)
 
 
 @compiled
 def vector_in_body(frame: Floats, vector: Vector3) -> Vector3:
     """Return the components in body axes of a vector given in world axes."""
-    x, y, z = vector
-    return (
-        frame[ROTATION] * x + frame[ROTATION + 3] * y + frame[ROTATION + 6] * z,
-        frame[ROTATION + 1] * x + frame[ROTATION + 4] * y + frame[ROTATION + 7] * z,
-        frame[ROTATION + 2] * x + frame[ROTATION + 5] * y + frame[ROTATION + 8] * z,
-    )
+    return rotated_back(axes_of(frame), vector)
 
 
 @compiled

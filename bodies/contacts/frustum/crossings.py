@@ -11,12 +11,13 @@ from typing import NamedTuple
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
+from ...rotations import Axes, rotated_back
 from ...shapes.frustum import COS, LOW, LOW_RADIUS, SIDE, SIN, SWEEP
 from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus, plus_scaled, scaled
 from ..features.edge_crossing import PARALLEL, least_round_sine
 from ..features.ends import CLOSED, REACH
 from ..features.frames import across
-from ..smooth.smooth_core import Axes, axes_in_world, rotated_back
+from ..smooth.smooth_core import axes_in_world
 from .circle import least_sample, zero_of_slope
 from .frustum import FLANK, along_side, normal_of_part, rim_of
 from .frustum_placed import Placed, placed

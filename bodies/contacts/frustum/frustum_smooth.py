@@ -20,6 +20,7 @@ from nonsmooth.engine.memory.blocks import SIDE_A, SIDE_B
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.types import Floats
 
+from ...rotations import relative_rotation, rotated, rotated_back
 from ...shapes.frustum import COS, HIGH, LOW, LOW_RADIUS, SIDE, SIN, SWEEP, Frustum
 from ...shapes.smooth import SmoothShape
 from ...vectors import minus, opposite, plus, plus_scaled, vector_at
@@ -28,19 +29,7 @@ from ..features.writing import write_contact
 from ..smooth.inscribed import is_least_overlap
 from ..smooth.overlap_proof import do_overlap
 from ..smooth.round_search import up_hills
-from ..smooth.smooth_core import (
-    CENTER,
-    POINT,
-    RADIUS,
-    Cores,
-    NearestPoint,
-    axes_in_world,
-    largest_semi_axis,
-    relative_rotation,
-    rotated,
-    rotated_back,
-    spread,
-)
+from ..smooth.smooth_core import CENTER, POINT, RADIUS, Cores, NearestPoint, axes_in_world, largest_semi_axis, spread
 from ..smooth.smooth_newton import write_surface
 from .frustum import FLANK, HIGH_CAP, HIGH_RIM, LOW_CAP, LOW_RIM, nearest_part, part_number, rim_of
 from .frustum_features import part_names

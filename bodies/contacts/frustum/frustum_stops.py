@@ -17,13 +17,14 @@ from typing import NamedTuple, TypeAlias
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
+from ...rotations import rotated_back
 from ...shapes.frustum import COS, LOW, LOW_RADIUS, SIDE, SIN
 from ...shapes.support_function import Core, is_round
 from ...vectors import Vector3, dot
 from ..smooth.boxy_line import Line, across_line
 from ..smooth.newton import RIGHT, ROUND_OFF, has_ended
 from ..smooth.round_search import round_circle
-from ..smooth.smooth_core import Cores, NearestPoint, at_place, bend, facing_point, rotated_back
+from ..smooth.smooth_core import Cores, NearestPoint, at_place, bend, facing_point
 from ..smooth.smooth_newton import widest_of_round
 from .frustum import FLANK, HIGH_CAP, LOW_CAP, LOW_RIM, along_side, rim_of
 

@@ -11,13 +11,14 @@ from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
+from ...rotations import rotated, rotated_back
 from ...shapes.ellipsoid import Ellipsoid
 from ...shapes.ground import Ground
 from ...shapes.smooth import SmoothShape
 from ...shapes.support_function import support_of
 from ...vectors import Vector3, cross, divided, dot, opposite, plus, plus_scaled, vector_at
 from ..features.frames import point_in_world, turned_by, vector_in_body
-from ..smooth.smooth_core import CENTER, RADIUS, axes_in_world, rotated, rotated_back
+from ..smooth.smooth_core import CENTER, RADIUS, axes_in_world
 from ..smooth.smooth_newton import write_surface
 from ..smooth.tangent_plane import write_matrices
 from .plane_point import axis_of, place_over_plane

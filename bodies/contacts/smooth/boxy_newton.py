@@ -14,11 +14,12 @@ from typing import TypeAlias
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
+from ...rotations import Axes, rotated_back
 from ...shapes.support_function import Core, boxy_gauge_of
 from ...vectors import Vector3, cross, divided, dot, minus, norm, plus, scaled
 from ..features.frames import tangent_of
 from .newton import RIGHT, has_ended
-from .smooth_core import RADIUS, Axes, Cores, NearestPoint, facing_point, largest_semi_axis, rotated_back, size_of
+from .smooth_core import RADIUS, Cores, NearestPoint, facing_point, largest_semi_axis, size_of
 from .tangent_plane import (
     Symmetric,
     along,

@@ -19,10 +19,11 @@ from typing import TypeAlias
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
+from ...rotations import Axes
 from ...shapes.support_function import Core, support_by
 from ...vectors import Vector3, cross, divided, norm, plus, scaled
 from ..features.frames import tangent_of
-from .smooth_core import RADIUS, Axes, SemiAxes, largest_semi_axis, semi_axes_of, unit
+from .smooth_core import RADIUS, SemiAxes, largest_semi_axis, semi_axes_of, unit
 from .tangent_plane import (
     Symmetric,
     along,

@@ -12,10 +12,11 @@ import math
 
 from nonsmooth.compiled import compiled
 
+from ...rotations import rotated, rotated_back
 from ...vectors import Vector3, dot, minus, opposite, plus, plus_scaled, scaled
 from .chart import chart_of, start_of
 from .newton import CLOSE, RIGHT, has_ended
-from .smooth_core import Cores, NearestPoint, largest_semi_axis, rotated, rotated_back, semi_axes_of, size_of, unit
+from .smooth_core import Cores, NearestPoint, largest_semi_axis, semi_axes_of, size_of, unit
 from .tangent_plane import Symmetric, along, by_symmetric, determinant, from_tangents, in_plane, solved, turned_matrix
 
 _STEPS, _HALVINGS = 100, 30

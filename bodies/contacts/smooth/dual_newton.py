@@ -14,11 +14,12 @@ import math
 
 from nonsmooth.compiled import compiled
 
+from ...rotations import rotated_back
 from ...shapes.support_function import support_of
 from ...vectors import Vector3, cross, dot, minus, norm, plus, plus_scaled, scaled
 from ..features.frames import tangent_of
 from .newton import CLOSE, RIGHT, ROUND_OFF, has_ended
-from .smooth_core import Cores, NearestPoint, bend, facing_point, rotated_back, size_of, spread, unit
+from .smooth_core import Cores, NearestPoint, bend, facing_point, size_of, spread, unit
 from .tangent_plane import along, in_plane
 
 _STEPS, _HALVINGS = 100, 40

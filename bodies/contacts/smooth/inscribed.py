@@ -13,10 +13,11 @@ from __future__ import annotations
 
 from nonsmooth.compiled import compiled
 
+from ...rotations import rotated_back
 from ...shapes.support_function import OF_FUNCTION, Core, gauge_of
 from ...vectors import Vector3, dot, minus, opposite, plus_scaled, vector_at
 from .dual_newton import gap_by_normal
-from .smooth_core import POINT, POWERS, Cores, NearestPoint, largest_semi_axis, rotated_back, spread
+from .smooth_core import POINT, POWERS, Cores, NearestPoint, largest_semi_axis, spread
 
 
 @compiled

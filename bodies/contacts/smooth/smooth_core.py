@@ -10,15 +10,13 @@ from __future__ import annotations
 from typing import NamedTuple, TypeAlias
 
 from nonsmooth.compiled import compiled
-from nonsmooth.engine.memory.blocks import ROTATION
 from nonsmooth.types import Floats
 
+from ...rotations import Axes, by_columns, rotated, rotated_back
 from ...shapes.support_function import Bends, Core, support_of
-from ...vectors import Vector3, divided, minus, norm, opposite, plus, vector_at
+from ...vectors import Vector3, divided, minus, norm, opposite, plus
 from ..features.frames import vector_in_world
 
-Axes: TypeAlias = tuple[float, float, float, float, float, float, float, float, float]
-"""A rotation, row by row.  Its columns are the axes that it turns the coordinate axes to."""
 SemiAxes: TypeAlias = tuple[float, float, float, float, float]
 """Three semi-axes [m] and two powers of a core; a core whose semi-axes are 0 is a point."""
 NearestPoint: TypeAlias = tuple[float, Vector3, Vector3]
@@ -97,12 +95,6 @@ def bend(h: Bends, u: Vector3, v: Vector3) -> float:
 
 
 @compiled
-def by_columns(x: Vector3, y: Vector3, z: Vector3) -> Axes:
-    """Return the rotation with the unit vectors x, y and z as columns."""
-    return x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]
-
-
-@compiled
 def axes_in_world(frame: Floats, core: Core) -> Axes:
     """Return the axes of a core in the world, as columns; or of a frustum, whose numbers have the same indices."""
     x = vector_in_world(frame, (core[CORE_AXES], core[CORE_AXES + 3], core[CORE_AXES + 6]))
@@ -121,51 +113,6 @@ def unit_axes_in_world(frame: Floats, core: Core) -> Axes:
     x, y, z, u, v, w, r, s, t = axes_in_world(frame, core)
     factor = 1.0 / norm((x, y, z))
     return factor * x, factor * y, factor * z, factor * u, factor * v, factor * w, factor * r, factor * s, factor * t
-
-
-@compiled
-def axes_of(frame: Floats) -> Axes:
-    """Return the axes of a body in the world, as columns."""
-    x, y, z = vector_at(frame, ROTATION), vector_at(frame, ROTATION + 3), vector_at(frame, ROTATION + 6)
-    return x[0], x[1], x[2], y[0], y[1], y[2], z[0], z[1], z[2]
-
-
-@compiled
-def relative_rotation(a: Axes, b: Axes) -> Axes:
-    """Return a^T b: it converts components along the axes b to components along the axes a.
-
-    The columns of a and b are axes in the world.
-    """
-    x, y = rotated_back(a, (b[0], b[3], b[6])), rotated_back(a, (b[1], b[4], b[7]))
-    return by_columns(x, y, rotated_back(a, (b[2], b[5], b[8])))
-
-
-@compiled
-def inverse(turn: Axes) -> Axes:
-    """Return the inverse of a rotation."""
-    return turn[0], turn[3], turn[6], turn[1], turn[4], turn[7], turn[2], turn[5], turn[8]
-
-
-@compiled
-def rotated(axes: Axes, v: Vector3) -> Vector3:
-    """Return a vector turned by a rotation."""
-    x, y, z = v
-    return (
-        axes[0] * x + axes[1] * y + axes[2] * z,
-        axes[3] * x + axes[4] * y + axes[5] * z,
-        axes[6] * x + axes[7] * y + axes[8] * z,
-    )
-
-
-@compiled
-def rotated_back(axes: Axes, v: Vector3) -> Vector3:
-    """Return a vector turned by the inverse of a rotation."""
-    x, y, z = v
-    return (
-        axes[0] * x + axes[3] * y + axes[6] * z,
-        axes[1] * x + axes[4] * y + axes[7] * z,
-        axes[2] * x + axes[5] * y + axes[8] * z,
-    )
 
 
 @compiled

@@ -13,6 +13,7 @@ import math
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
+from ...rotations import Axes, inverse, rotated, rotated_back
 from ...shapes.support_function import Core, is_boxy, is_mixed, is_round, support_of
 from ...vectors import Vector3, divided, dot, norm, opposite, plus, plus_scaled
 from .boxy_line import Line, across_line
@@ -22,18 +23,7 @@ from .chart_newton import gap_by_chart
 from .dual_newton import gap_by_normal
 from .inscribed import is_least_overlap
 from .overlap_proof import do_overlap
-from .smooth_core import (
-    RADIUS,
-    Axes,
-    Cores,
-    NearestPoint,
-    inverse,
-    rotated,
-    rotated_back,
-    semi_axes_of,
-    spread,
-    unit,
-)
+from .smooth_core import RADIUS, Cores, NearestPoint, semi_axes_of, spread, unit
 from .smooth_starts import N_STARTS, Start, gap_along, largest_near, local_maximum, starts_of
 from .tangent_plane import bends_in_plane, tangents_in, write_matrices
 

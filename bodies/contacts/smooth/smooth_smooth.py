@@ -9,11 +9,12 @@ from nonsmooth.errors import InvalidInput
 from nonsmooth.interfaces import ContactKinematics, FeaturePair, Shape
 from nonsmooth.types import Floats
 
+from ...rotations import relative_rotation, rotated, rotated_back
 from ...shapes.smooth import SmoothShape
 from ...shapes.support_function import OF_FUNCTION
 from ...vectors import minus, opposite, plus, plus_scaled, vector_at, write_vector
 from ..features.frames import point_in_world, write_tangent
-from .smooth_core import CENTER, POWERS, RADIUS, Cores, relative_rotation, rotated, rotated_back, unit_axes_in_world
+from .smooth_core import CENTER, POWERS, RADIUS, Cores, unit_axes_in_world
 from .smooth_newton import largest_gap, write_surface
 
 

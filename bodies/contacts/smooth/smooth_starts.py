@@ -11,10 +11,11 @@ from typing import TypeAlias
 
 from nonsmooth.compiled import compiled
 
+from ...rotations import rotated, rotated_back
 from ...shapes.support_function import support_of
 from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus_scaled
 from ..features.frames import tangent_of
-from .smooth_core import Cores, facing_point, rotated, rotated_back, size_of, unit
+from .smooth_core import Cores, facing_point, size_of, unit
 from .tangent_plane import in_plane
 
 _LONGEST, _MOVES = 0.2, 100

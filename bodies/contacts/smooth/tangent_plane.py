@@ -8,9 +8,10 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.memory.blocks import NORMAL, SLIDE_MATRIX, TANGENT, TURN_MATRIX
 from nonsmooth.types import Floats
 
+from ...rotations import Axes, rotated_back
 from ...shapes.support_function import Bends
 from ...vectors import Vector3, cross, dot, plus, scaled, vector_at
-from .smooth_core import Axes, bend, rotated_back
+from .smooth_core import bend
 
 Pair: TypeAlias = tuple[float, float]
 """Components of a vector of a tangent plane along its two tangents."""

@@ -15,6 +15,7 @@ import math
 
 from nonsmooth.compiled import compiled
 
+from ...rotations import rotated_back
 from ...vectors import cross, dot, minus, opposite, plus, plus_scaled, scaled, vector_at
 from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH, START
 from ..features.ends import REACH
@@ -22,7 +23,7 @@ from ..features.frames import tangent_of
 from ..features.vertex import steepest
 from ..smooth.inscribed import gauge, is_least_overlap
 from ..smooth.round_search import along_segment, up_hills
-from ..smooth.smooth_core import at_place, rotated_back
+from ..smooth.smooth_core import at_place
 from .smooth_stops import Nearest, SmoothOver, Stop, over_corner, over_edge, over_face
 from .surface_search import FAR, nearest_in_patch
 from .surface_tables import (

@@ -10,10 +10,11 @@ import math
 
 from nonsmooth.compiled import compiled
 
+from ...rotations import rotated_back
 from ...shapes.support_function import support_of
 from ...vectors import Vector3, divided, dot, minus, norm, opposite, vector_at
 from ..features.ends import REACH
-from ..smooth.smooth_core import RADIUS, rotated_back
+from ..smooth.smooth_core import RADIUS
 from .smooth_stops import Nearest, SmoothOver, Stop, over_corner, over_edge, over_face
 from .surface_search import past_edge
 from .surface_tables import (

@@ -11,26 +11,15 @@ from nonsmooth.parameters import Value
 from nonsmooth.types import Floats
 
 from ...meshes.patches import patches_for_body
+from ...rotations import relative_rotation, rotated_back
 from ...shapes.smooth import SmoothShape, extent
 from ...shapes.support_function import is_round
 from ...shapes.surface_shape import SurfaceShape
 from ...vectors import minus, opposite, plus_scaled, vector_at
 from ..features.edge_row import START
-from ..features.frames import point_in_world, point_seen_from, vector_in_world
+from ..features.frames import axes_of, point_in_world, point_seen_from, vector_in_world
 from ..features.writing import NO_CANDIDATE, write_apart, write_contact
-from ..smooth.smooth_core import (
-    CENTER,
-    POINT,
-    RADIUS,
-    Cores,
-    axes_in_world,
-    axes_of,
-    facing_point,
-    largest_semi_axis,
-    relative_rotation,
-    rotated_back,
-    spread,
-)
+from ..smooth.smooth_core import CENTER, POINT, RADIUS, Cores, axes_in_world, facing_point, largest_semi_axis, spread
 from ..smooth.smooth_newton import write_surface
 from .convex_smooth import nearest_of_convex
 from .patch_smooth import nearest_of_patch
