@@ -29,7 +29,7 @@ from .surface_ball import write_round_corner, write_sharp_corner
 from .surface_edges import write_edges
 from .surface_near import EDGE_ACROSS, NARROW, OVER_FIRST, OVER_SECOND, find_near_features
 from .surface_search import FAR, nearest_in_patch, signed_distance
-from .surface_tables import N_FACES, SWEEP, Solid, corner_at, edge_at, surface_numbers
+from .surface_tables import N_FACES, SWEEP, Solid, corner_at, edge_at, part_names, surface_numbers
 
 MOST_NEAR = 256
 """Largest number of pairs of features of two bodies that may be near each other at a time."""
@@ -154,7 +154,7 @@ def contacts_of(one: Swept, two: Swept) -> tuple[FeaturePair, ...]:
     search = CandidateSearch(
         find_near_features, {**sought, **limits(n_pairs, [s.extent for s in (one, two) if s.features.edges])}, counts
     )
-    names = tuple(f"feature {i}" for i in range(max(len(_parts(s.features)) for s in (one, two))))
+    names = tuple(f"feature {i}" for i in range(max(len(part_names(s.features)) for s in (one, two))))
     made = FeaturePair(evaluate_surfaces, {**values, "candidate": NO_CANDIDATE}, names, search, bound_of_surfaces)
     return (made,) * min(n_pairs, MOST_NEAR)
 
@@ -179,19 +179,12 @@ def _fixed(values: dict[str, Value], pair: tuple[float, int, int], one: Swept, t
     """Return the contact of a pair of features that never changes, by its kind and its numbers."""
     kind, i, j = pair
     if kind == EDGE_ACROSS:
-        names = [f"{_parts(one.features, 'edge')[i]} and {_parts(two.features, 'edge')[j]}"]
+        names = [f"{part_names(one.features, 'edge')[i]} and {part_names(two.features, 'edge')[j]}"]
     elif kind == OVER_FIRST:
-        names = [f"{part} and {two.corner_name(j)}" for part in _parts(one.features)]
+        names = [f"{part} and {two.corner_name(j)}" for part in part_names(one.features)]
     else:
-        names = [f"{one.corner_name(j)} and {part}" for part in _parts(two.features)]
+        names = [f"{one.corner_name(j)} and {part}" for part in part_names(two.features)]
     return FeaturePair(evaluate_surfaces, values, tuple(names), None, bound_of_surfaces)
-
-
-def _parts(features: Features, kind: str = "") -> list[str]:
-    """Return the names of all faces, edges and corners by number, or of those of a kind; a segment's edge is a side."""
-    edge = "edge" if len(features.planes) > 0 else "side"
-    counts = ("face", len(features.planes)), (edge, len(features.edges)), ("corner", len(features.corners))
-    return [f"{name} {i}" for name, n in counts for i in range(n) if kind in ("", "edge" if name == edge else name)]
 
 
 def _swept(shape: Shape) -> Swept:

@@ -242,10 +242,11 @@ def star_lengths(features: Features, number: int) -> list[float]:
     return [float(x) for x in np.linalg.norm(ways, axis=1)]
 
 
-def part_names(features: Features) -> list[str]:
-    """Return the names of all faces, convex edges and corners by number."""
-    counts = ("face", len(features.planes)), ("edge", len(features.edges)), ("corner", len(features.corners))
-    return [f"{kind} {i}" for kind, n in counts for i in range(n)]
+def part_names(features: Features, kind: str = "") -> list[str]:
+    """Return the names of all faces, edges and corners by number, or of those of a kind; a segment's edge is a side."""
+    edge = "edge" if len(features.planes) > 0 else "side"
+    counts = ("face", len(features.planes)), (edge, len(features.edges)), ("corner", len(features.corners))
+    return [f"{name} {i}" for name, n in counts for i in range(n) if kind in ("", "edge" if name == edge else name)]
 
 
 def _triangles(features: Features) -> Vector:
