@@ -16,7 +16,7 @@ import math
 from nonsmooth.compiled import compiled
 
 from ...vectors import Vector3, cross, dot, minus, norm, plus_scaled, scaled, vector_at
-from .edge_row import INTO_FIRST, INTO_SECOND, LENGTH, Edge, direction_of, start_of
+from .edge_vertex import INTO_FIRST, INTO_SECOND, LENGTH, Edge, direction_of, start_of
 from .frames import vector_in_world
 
 
@@ -24,8 +24,8 @@ from .frames import vector_in_world
 def squared_distance_of_segments(w: Vector3, e: Vector3, p: float, f: Vector3, q: float) -> float:
     """Return the squared distance of two segments [m^2]: from 0 along e, length p, and from w along f, length q.
 
-    e and f are unit vectors.  Minimise over one line, clamp to its segment, and repeat: C. Ericson, Real-Time Collision
-    Detection (2005), 5.1.9.
+    e and f are unit vectors; w, p, q are in m.  The place s at which the lines are nearest is clamped to its segment,
+    then the nearest t to it, then the nearest s to this t: C. Ericson, Real-Time Collision Detection (2005), 5.1.9.
     """
     across, along_e, along_f = dot(e, f), dot(w, e), dot(w, f)
     square = 1.0 - across * across

@@ -9,7 +9,7 @@ from nonsmooth.compiled import compiled
 from nonsmooth.engine.numerics.tolerances import ADJACENT, GAP, RELATIVE_GAP
 
 from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus_scaled, scaled, vector_at
-from .edge_row import INTO_FIRST, INTO_SECOND, LENGTH, Edge, direction_of, start_of
+from .edge_vertex import INTO_FIRST, INTO_SECOND, LENGTH, Edge, direction_of, start_of
 from .frames import tangent_of, vector_in_body
 
 CONE_MARGIN = 0.25

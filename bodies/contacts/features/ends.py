@@ -8,8 +8,8 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...vectors import Vector3, opposite
+from .edge_vertex import Vertex, steepest
 from .frames import vector_in_body
-from .vertex import Vertex, steepest
 
 REACH = 1e-9
 """Length by which features are extended at their ends, relative to the size of the bodies.

@@ -93,7 +93,10 @@ def side_of(frustum: Placed) -> Side:
 
 @compiled
 def _line(side: Side, n: Vector3) -> tuple[Vector3, Vector3]:
-    """Return the straight line of a side with the outward normal n: its lower end [m] and unit vector upwards."""
+    """Return the straight line of a side with the outward normal n: its lower end [m] and unit vector upwards.
+
+    The axial component of n is the sine of the side.
+    """
     outward = divided(plus_scaled(n, -side.sine, side.axis), side.cosine)
     return plus_scaled(side.low, side.radius, outward), plus_scaled(scaled(side.cosine, side.axis), -side.sine, outward)
 
@@ -152,7 +155,7 @@ def evaluate_sides(a: Floats, b: Floats, out: Floats, first: Floats, second: Flo
 
 
 class _Circle(NamedTuple):
-    """A rim of one frustum, in the axes of the other one.
+    """A rim of one frustum, in the axes of the other one and from its centre.
 
     Its point at an angle is ``middle`` + ``radius`` (g cos(angle) + h sin(angle)), with perpendicular unit vectors g
     and h; lengths in m.
@@ -196,7 +199,8 @@ def _about_axis(circle: _Circle, angle: float) -> tuple[Vector3, Vector3]:
 def _height(given: tuple[_Circle, Floats], angle: float) -> tuple[float, float, float]:
     """Return the height of a circle's point over the side of a frustum, and two derivatives by the angle [m].
 
-    The side is continued past its rims; the height is positive outside.
+    ``given`` is the circle and the numbers of the frustum.  The side is continued past its rims; the height is positive
+    outside.
     """
     circle, frustum = given
     (away, slope, bend), (z, rise, rise_bend) = _about_axis(circle, angle)

@@ -29,7 +29,7 @@ from ...vectors import (
     write_vector,
 )
 from ..features.edge_crossing import PARALLEL, sine_off_cone
-from ..features.edge_row import LENGTH, Edge, direction_of, start_of
+from ..features.edge_vertex import LENGTH, Edge, direction_of, start_of
 from ..features.ends import CLOSED, gap_past_end
 from ..features.frames import across, point_in_body
 from ..features.writing import write_contact, write_principal
@@ -84,12 +84,13 @@ def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[f
     """Return the foot of the normal from (x, y) to the upper half of an ellipse: its cosine and sine, and a check.
 
     The foot is the point (semi_x cosine, semi_y sine) [m]; semi_x is at least semi_y.  The check is 0 if there is a
-    foot with a local minimum of the distance, else positive.  A point (x, y) in the lower half-plane has such a foot
-    only if it lies within the evolute of the ellipse, the astroid (a |x|)^(2/3) + (b |y|)^(2/3) = (a^2 - b^2)^(2/3)
-    with the semi-axes a and b.  The check [m^2] grows with the distance from the evolute.
+    foot with a local minimum of the distance, else positive, and the angle means nothing.  A point (x, y) in the lower
+    half-plane has such a foot only if it lies within the evolute of the ellipse, the astroid (a |x|)^(2/3) +
+    (b |y|)^(2/3) = (a^2 - b^2)^(2/3) with the semi-axes a and b.  The check [m^2] grows with the distance from the
+    evolute.
 
-    The angle of the foot is the zero of F = a x sin - b y cos - (a^2 - b^2) sin cos.  It is searched for |x|, in the
-    first quadrant.
+    Half of the derivative of the squared distance by the angle is F = a x sin - b y cos - (a^2 - b^2) sin cos.  At the
+    foot F is zero and rises.  It is searched for |x|, in the first quadrant.
     """
     p, q = semi_x * abs(x), semi_y * y
     focal_square = max(semi_x * semi_x - semi_y * semi_y, 0.0)
@@ -100,8 +101,7 @@ def foot_on_ellipse(semi_x: float, semi_y: float, x: float, y: float) -> tuple[f
         past_evolute = max(math.sqrt(sum_of_squares * sum_of_squares * sum_of_squares) - focal_square, 0.0)
         # F / (sin cos) is least at this angle; if the least value is positive, F has no zero, else the zero is above it
         low = math.atan2(third_q, third_p)
-    high = 0.5 * math.pi
-    angle = low
+    angle, high = low, 0.5 * math.pi
     if past_evolute == 0.0:
         angle = zero_of_slope(_normal_of_ellipse, (p, q, focal_square), 0.5 * (low + high), low, high)
     c, s = math.cos(angle), math.sin(angle)
@@ -244,11 +244,15 @@ def _write_crossing(a: Floats, out: Floats, edge: Edge, surface: Floats, crossin
 
 @compiled
 def write_across_side(a: Floats, out: Floats, frustum: Floats, edge: Edge, surface: Floats, size: float) -> None:
-    """Write the geometry block of an edge of a ``surface`` that crosses the side of a frustum."""
+    """Write the geometry block of an edge of a ``surface`` that crosses the side of a frustum of the body ``a``.
+
+    ``size`` is the size of the bodies [m].
+    """
     one = placed(a, frustum)
     line = Side(start_of(edge), direction_of(edge), 0.0, edge.row[LENGTH], 1.0, 0.0)
     found = cross_sides(side_of(one), line, PARALLEL, size)
     spot = Spot(one, FLANK, minus(found.point, one.center), found.away)
+    # the normal is that of the side; the writer compares it with the normals of the edge
     crossing = _Crossing(spot, found.point, found.normal, found.gap, found.past_ends, -1.0, found.sine)
     _write_crossing(a, out, edge, surface, crossing, size)
 

@@ -13,9 +13,9 @@ from nonsmooth.types import Floats
 from ...shapes.frustum import SWEEP, Frustum, without_feet
 from ...shapes.sphere import Sphere
 from ...vectors import Vector3, vector_at, write_vector
+from ..features.edge_vertex import Vertex
 from ..features.ends import ended_gap, past_vertex
 from ..features.frames import point_in_world
-from ..features.vertex import Vertex
 from ..features.writing import place_sphere, write_round
 from .frustum import HIGH_CAP, LOW_CAP, nearest_part, normal_of_part, part_number
 from .frustum_features import part_names

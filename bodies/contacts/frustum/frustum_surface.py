@@ -21,10 +21,9 @@ from ...shapes.surface_shape import SurfaceShape
 from ...shapes.triangle_mesh import TriangleMesh
 from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus, plus_scaled, vector_at
 from ..features.edge_crossing import CONE_MARGIN
-from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH, START, Edge
+from ..features.edge_vertex import ALONG, INTO_FIRST, INTO_SECOND, LENGTH, START, Edge, Vertex, steepest
 from ..features.ends import CLOSED
 from ..features.frames import tangent_of
-from ..features.vertex import Vertex, steepest
 from ..features.writing import NO_CANDIDATE, write_apart
 from ..surface.surface_near import Near, patches_near, patches_under, room_ahead
 from ..surface.surface_pairs import MOST_NEAR, limits
@@ -114,7 +113,7 @@ def _swing(radial: float, turn: float) -> float:
 
 @compiled
 def _rim_is_near(search: _Search, row: Floats, rim: int) -> bool:
-    """Return whether a rim may touch a triangle, by its row, at its point that is lowest over it."""
+    """Return whether a rim's point that is lowest over a triangle, by its row, may touch it before the next search."""
     surface, frustum, reach, turn, _ = search
     lowest = lowest_on_rim(frustum, rim, opposite(normal_of(surface, int(row[FACE_NUMBER]))), tangent_of(frustum.axis))
     if lowest.off_cone > CONE_MARGIN + turn:
@@ -125,6 +124,7 @@ def _rim_is_near(search: _Search, row: Floats, rim: int) -> bool:
     radius = max(norm(minus(p, middle)), norm(minus(q, middle)), norm(minus(r, middle)))
     if _from_rim(frustum, rim, middle) > reach + radius:
         return False
+    # the lowest point moves along the rim, too, as the bodies turn
     return distance_from_triangle(row, lowest.point) <= reach + lowest.spot.away * _swing(lowest.radial, turn)
 
 
@@ -203,8 +203,7 @@ def _edge_is_near(search: _Search, edge: Floats) -> tuple[bool, bool, bool]:
     An edge that passes through the frustum may touch each part that the frustum has, at any angle between the normals,
     because the bodies overlap.
     """
-    frustum = search.frustum
-    numbers = frustum.numbers
+    frustum, numbers = search.frustum, search.frustum.numbers
     has_side = numbers[SIDE] > 0.0
     has_upper = has_side and numbers[HIGH_RADIUS] > 0.0
     if not _edge_comes_near(frustum, edge, search.reach):
@@ -258,9 +257,9 @@ def _corner_is_near(search: _Search, corner: int) -> bool:
 def _add(kind: float, second: float, third: float, out: Floats, n: int, most: int) -> int:
     """Append a candidate to the ``n`` candidates in ``out``, unless n exceeds ``most``; return the new number.
 
-    ``kind``, ``second`` and ``third`` are the three numbers of the candidate: its kind and its two features.  One
-    candidate more than ``most`` may be appended; it means that there are too many.  A face of several triangles is
-    found once for each of them, and appended once.
+    ``kind``, ``second`` and ``third`` are the three numbers of the candidate, its kind and its two features; those of
+    candidate i begin at ``1 + 3 i``.  One candidate more than ``most`` may be appended: there are too many.  A face of
+    several triangles, which is found with each of them, is appended once.
     """
     for i in range(n if kind == RIM else 0):
         if out[1 + 3 * i] == RIM and out[2 + 3 * i] == second and out[3 + 3 * i] == third:
@@ -275,14 +274,15 @@ def _add(kind: float, second: float, third: float, out: Floats, n: int, most: in
 def _member_near(search: _Search, member: int, out: Floats, n: int, most: int) -> int:
     """Append the candidates of one triangle, edge or corner of the surface that may soon touch the frustum.
 
-    ``member`` counts triangles first, then edges, then corners.  A feature may touch if it is within the reach of the
-    core, the frustum without its rounding, and if its normals agree with those of the frustum after a rotation by up to
-    the largest until the next search.  ``out`` holds ``n`` candidates.  Return the new number of candidates; a number
-    above ``most`` means that there are too many.
+    ``member`` counts triangles first, then edges, then corners.  A feature may touch if two conditions hold: its
+    distance from the core, the frustum without its rounding, is at most the reach of the search; a rotation by at most
+    the turn of the search makes one of its normals opposite to a normal of the frustum.  ``out`` holds ``n``
+    candidates.  Return the new number of candidates; a number above ``most`` means that there are too many.
     """
     surface, numbers = search.surface, search.frustum.numbers
     kind, number, row = feature_of(surface, member)
     if kind == ON_FACE:
+        # a cone and a disc have the lower rim only
         for upper in range(2 if numbers[SIDE] > 0.0 and numbers[HIGH_RADIUS] > 0.0 else 1):
             if _rim_is_near(search, row, HIGH_RIM if upper == 1 else LOW_RIM):
                 n = _add(RIM, float(number), float(upper), out, n, most)
@@ -290,8 +290,8 @@ def _member_near(search: _Search, member: int, out: Floats, n: int, most: int) -
         flank, lower, upper_rim = _edge_is_near(search, row)
         if flank:
             n = _add(ACROSS_FLANK, float(number), 0.0, out, n, most)
-        for upper in range(2):
-            if upper_rim if upper == 1 else lower:
+        for upper, is_near in enumerate((lower, upper_rim)):
+            if is_near:
                 n = _add(ACROSS_BACK, float(number), float(upper), out, n, most)
                 n = _add(ACROSS_FRONT, float(number), float(upper), out, n, most)
     elif _corner_is_near(search, number):

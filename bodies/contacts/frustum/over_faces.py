@@ -14,11 +14,11 @@ from nonsmooth.types import Floats
 
 from ...shapes.frustum import AXIS, HIGH, LOW_RADIUS, SIDE
 from ...shapes.frustum import SWEEP as FRUSTUM_SWEEP
-from ...vectors import Vector3, dot, minus, opposite, plus_scaled, vector_at
+from ...vectors import Vector3, dot, minus, norm, opposite, plus_scaled, vector_at
 from ..features.edge_crossing import CONE_MARGIN
+from ..features.edge_vertex import Vertex, steepest
 from ..features.ends import CLOSED, END, NEAR, OPEN, REACH, gap_at_distance, gap_past_end
 from ..features.frames import across, point_in_body, point_in_world, vector_in_body, vector_in_world
-from ..features.vertex import Vertex, steepest
 from ..features.writing import write_contact, write_flat, write_round
 from ..surface.overlap_corners import FLUSH
 from ..surface.surface_ball import out_of_surface, write_feature
@@ -250,11 +250,11 @@ def _tip_past_rim(b: Floats, vertex: Vertex, lengths: Floats, disc: Placed, n: V
 
     Each edge of the vertex that leads back through the disc's plane crosses it at a distance from the disc's centre.
     The result is the least of these distances, minus the disc's radius, plus ``depth``; it is infinite if no edge
-    crosses the plane.  A negative result means that an edge crosses the disc inside of the rim by more than ``depth``.
-    Otherwise the edges pass the rim from the side.
+    crosses the plane.  A negative result means that an edge crosses the disc inside of the rim by more than ``depth``:
+    the disc leaves the vertex on a shorter way along its axis.  Otherwise it leaves the edges on the side of its rim.
 
-    The ``vertex`` of body ``b`` has edges of the ``lengths`` [m].  ``depth`` is its distance from the disc's plane [m]
-    in the direction -n, with the unit normal n of the disc in the world.
+    The ``vertex`` of body ``b`` has edges of the ``lengths`` [m].  ``depth`` > 0 is its distance from the disc's plane
+    [m] in the direction -n, with the unit normal n of the disc in the world.
     """
     p = minus(point_in_world(b, vertex.place), disc.center)
     least = math.inf
@@ -265,8 +265,7 @@ def _tip_past_rim(b: Floats, vertex: Vertex, lengths: Floats, disc: Placed, n: V
         if rise * lengths[i] <= 2.0 * depth:
             continue
         crossing = plus_scaled(p, depth / rise, edge)
-        along = dot(n, crossing)
-        least = min(least, math.sqrt(max(dot(crossing, crossing) - along * along, 0.0)) - disc.numbers[LOW_RADIUS])
+        least = min(least, norm(crossing) - disc.numbers[LOW_RADIUS])
     return least + depth
 
 

@@ -156,15 +156,16 @@ def _of_ellipsoid(semi: Vector3, length: float, w: Vector3) -> Chart:
 
 @compiled
 def write_chart(out: Floats, side: int, core: Core, axes: Axes, normal: Vector3) -> None:
-    """Write the curvature matrices of a core at the surface point with the outward unit normal ``normal``.
+    """Write the curvature matrices of a rounded core at the surface point with the outward unit normal ``normal``.
 
-    The normal is in the axes of the core.  The matrices are slide, S of the module [1/m], and turn, U of the module
-    [1]: slide u = turn nu, if the point moves by u and the normal turns by nu.  ``side`` is the index of the matrices
-    in the geometry block ``out``, which must already hold normal and first tangent; ``axes`` are the core's axes in the
-    world.
+    The normal is in the axes of the core.  With S and U of the module, the matrices are slide, S [1/m], and turn, U +
+    radius S [1]: slide u = turn nu, if the point moves by u and the normal turns by nu.  At flat places slide is raised
+    to the curvature ``_FLATTEST`` / size.  ``side`` is the index of the matrices in the geometry block ``out``, which
+    must already hold normal and first tangent; ``axes`` are the core's axes in the world.
     """
     semi, size = semi_axes_of(core), largest_semi_axis(core)
     _, _, first, second, slide, turn, _, _, _ = chart_of(semi, size, start_of(semi, normal))
+    # from the tangents of the chart to those of the contact
     t, u = tangents_in(axes, out)
     c = from_tangents(t, u, first, second)
     slide = turned_matrix(c, slide)

@@ -91,12 +91,13 @@ def gap_by_chart(cores: Cores, start: Vector3) -> NearestPoint:
 
 @compiled
 def _is_least(g: float, s_a: Symmetric, u_a: Symmetric, s_b: Symmetric, u_b: Symmetric) -> bool:
-    """Return whether H_A + H_B + g has a trace below 0: then the gap g [m] is no maximum.
+    """Return whether the gap g [m] is a minimum, and no maximum, if its second derivative is definite.
 
-    This is so where the second body is farthest from a point.  The trace of H = U S^-1 is that of U times the adjugate
-    of S, over the determinant of S.  All is multiplied by both determinants, which are 0 at flat places.
+    H = U S^-1 holds the radii of curvature of a body [m], with ``s`` and ``u`` of its chart.  The second derivative of
+    the gap by the normal is minus H_A + H_B + g times the identity, whose trace is negative at a minimum, for example
+    over the far side of a body.  The trace is multiplied by the determinants of S_A and S_B, 0 at flat places.
     """
-    flat_a, flat_b = (s_a[0] * s_a[2] - s_a[1] * s_a[1], s_b[0] * s_b[2] - s_b[1] * s_b[1])
+    det_a, det_b = (s_a[0] * s_a[2] - s_a[1] * s_a[1], s_b[0] * s_b[2] - s_b[1] * s_b[1])
     bent_a = u_a[0] * s_a[2] + u_a[2] * s_a[0] - 2.0 * u_a[1] * s_a[1]
     bent_b = u_b[0] * s_b[2] + u_b[2] * s_b[0] - 2.0 * u_b[1] * s_b[1]
-    return bool(flat_b * bent_a + flat_a * bent_b + 2.0 * g * flat_a * flat_b < 0.0)
+    return bool(det_b * bent_a + det_a * bent_b + 2.0 * g * det_a * det_b < 0.0)

@@ -54,19 +54,20 @@ def _inscribed_radius(core: Core, limit: float, point: Vector3, normal: Vector3)
     high_x, high_y, high_z = ((x + limit) / a) ** k, ((y + limit) / b) ** k, (z + limit) / c
     low_s, low_t = low_x / (low_x + high_y), low_y / (high_x + low_y)
     high_s, high_t = 1.0 - low_t, 1.0 - low_s
-    r, w = high_x + high_y, high_z
+    # r^(j - 2) and |z / c|^(j - 2) are bounded by the upper bounds of r^k and |z / c| if j >= 2, else by the lower ones
+    r_k, w = high_x + high_y, high_z
     if j < 2.0:
-        r, w = low_x + low_y, low_z
+        r_k, w = low_x + low_y, low_z
     s, t = (high_s, high_t) if k >= 2.0 else (low_s, low_t)
-    if min(min(r, w), min(s, t)) == 0.0:
+    if min(min(r_k, w), min(s, t)) == 0.0:
         # the second derivative has no bound in this cube: the radius is 0
         return 0.0
-    # bounds of the second derivative divided by j: across the third axis, from r and the direction of (x, y), and along
-    # it. The function is homogeneous, so that G = j / height; L is j times the larger bound
+    # bounds of the second derivative divided by j: across the third axis, by the changes of r (radial) and of the
+    # direction of (x, y), and along it. The function is homogeneous: G = j / height; L is j times the larger bound
     power = 1.0 - 2.0 / k
-    along = (j - 1.0) * (high_s ** (power + 1.0) / (a * a) + high_t ** (power + 1.0) / (b * b))
+    radial = (j - 1.0) * (high_s ** (power + 1.0) / (a * a) + high_t ** (power + 1.0) / (b * b))
     around = (k - 1.0) * (s**power * high_t / (a * a) + t**power * high_s / (b * b))
-    across, up = r ** ((j - 2.0) / k) * (along + around), (j - 1.0) * w ** (j - 2.0) / (c * c)
+    across, up = r_k ** ((j - 2.0) / k) * (radial + around), (j - 1.0) * w ** (j - 2.0) / (c * c)
     return float(min(limit, 1.0 / (height * max(across, up))))
 
 

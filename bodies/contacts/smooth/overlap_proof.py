@@ -75,12 +75,16 @@ def do_overlap(low: Core, low_height: float, high: Core, high_height: float, cor
 
 @compiled
 def _support(bodies: tuple[Core, float, Core, float, Cores], direction: Vector3) -> Vector3:
-    """Return the point of the difference that lies farthest along a direction of any length [m]."""
+    """Return the point of the difference that lies farthest along a direction of any length [m].
+
+    It is the second body's farthest point along the direction minus the first one's farthest point against it.
+    ``bodies`` are the arguments of :func:`do_overlap`.  The point is in the axes of the first body.
+    """
     low, low_height, high, high_height, cores = bodies
     n = opposite(unit(direction))
-    height, p, _ = support_of(low, n)
-    other, q, _ = support_of(high, n)
-    if other + n[2] * high_height > height + n[2] * low_height:
-        p, low_height = q, high_height
+    low_support, p, _ = support_of(low, n)
+    high_support, high_p, _ = support_of(high, n)
+    if high_support + n[2] * high_height > low_support + n[2] * low_height:
+        p, low_height = high_p, high_height
     q, _ = facing_point(cores, n)
     return minus(q, (p[0], p[1], p[2] + low_height))

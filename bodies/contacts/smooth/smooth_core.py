@@ -50,7 +50,7 @@ POINT = 0.0, 0.0, 0.0, 2.0, 2.0, 0.0
 
 @compiled
 def at_place(cores: Cores, place: Vector3) -> Cores:
-    """Return two cores, the first of which was moved to a place [m]."""
+    """Return two cores, the first of which was moved to a place, in its axes and from its centre [m]."""
     return Cores(cores.first, cores.second, cores.turn, minus(cores.center, place))
 
 

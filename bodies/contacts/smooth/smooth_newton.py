@@ -87,7 +87,8 @@ def _near_start(cores: Cores, start: Start) -> NearestPoint:
 def _from_ellipsoids(cores: Cores, start: Vector3) -> NearestPoint:
     """Return the result of :func:`gap_by_chart` from the contact normal of ellipsoids with the cores' semi-axes.
 
-    The search for this normal starts in the direction ``start``.
+    Their search starts in the direction ``start``, and converges from afar, because ellipsoids have neither flat nor
+    sharp places.
     """
     (a, b, c, _, _), (u, v, w, _, _) = semi_axes_of(cores.first), semi_axes_of(cores.second)
     ellipsoids = Cores((a, b, c, 2.0, 2.0), (u, v, w, 2.0, 2.0), cores.turn, cores.center)

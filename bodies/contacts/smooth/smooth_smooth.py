@@ -61,6 +61,7 @@ class SmoothSmooth(ContactKinematics):
                 raise InvalidInput(
                     f"contact of {type(shape).__name__} and {type(partner).__name__}",
                     "needs exponents both up to 1, or both from 1 on",
+                    # the exponent e belongs to the power 2 / (2 - e)
                     [2.0 - 2.0 / power for power in shape.core[POWERS : POWERS + 2]],
                     "Next to flat and sharp places at once the search needs the powers of both bodies.",
                 )

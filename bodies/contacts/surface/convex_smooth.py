@@ -17,10 +17,9 @@ from nonsmooth.compiled import compiled
 
 from ...rotations import rotated_back
 from ...vectors import cross, dot, minus, opposite, plus, plus_scaled, scaled, vector_at
-from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH, START
+from ..features.edge_vertex import ALONG, INTO_FIRST, INTO_SECOND, LENGTH, START, steepest
 from ..features.ends import REACH
 from ..features.frames import tangent_of
-from ..features.vertex import steepest
 from ..smooth.inscribed import gauge, is_least_overlap
 from ..smooth.round_search import along_segment, up_hills
 from ..smooth.smooth_core import at_place

@@ -21,10 +21,9 @@ from nonsmooth.types import Floats
 
 from ...vectors import Vector3, cross, divided, dot, minus, opposite, plus_scaled, scaled
 from ..features.edge_crossing import CONE_MARGIN, Crossing
-from ..features.edge_row import LENGTH, Edge, start_of
+from ..features.edge_vertex import LENGTH, Edge, Vertex, start_of, steepest
 from ..features.ends import CLOSED
 from ..features.frames import point_seen_from, vector_in_body, vector_in_world, vector_seen_from
-from ..features.vertex import Vertex, steepest
 from .surface_search import FAR, distance_from_ends, nearest_in_patch
 from .surface_tables import IS_CONVEX, N_FACES, SWEEP, Solid, face_height, normal_of
 

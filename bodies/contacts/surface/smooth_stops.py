@@ -14,8 +14,7 @@ from nonsmooth.compiled import block_at, compiled
 from nonsmooth.types import Floats
 
 from ...vectors import Vector3, dot, plus_scaled, vector_at
-from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH, START
-from ..features.vertex import Vertex, steepest
+from ..features.edge_vertex import ALONG, INTO_FIRST, INTO_SECOND, LENGTH, START, Vertex, steepest
 from ..smooth.smooth_core import Cores, at_place, facing_point
 from ..smooth.smooth_newton import widest_from
 from .surface_search import distance_from_triangle, past_edges
@@ -30,7 +29,7 @@ class SmoothOver(NamedTuple):
     cores: Cores
     """A point at the origin of the surface, and the body."""
     size: float
-    """Size of the bodies [m]; a sine off the normals of a feature, times the size, is a distance past its end."""
+    """Size of the body, or of both [m]; a sine off the normals of a feature times it is a distance past its end."""
 
 
 class Stop(NamedTuple):
@@ -84,7 +83,7 @@ def over_edge(body: SmoothOver, edge: Floats, start: Vector3) -> Stop:
     of the normal into a face of the edge.
     """
     begin, along = vector_at(edge, START), vector_at(edge, ALONG)
-    # a start nearly along the edge loses digits in this difference; Newton's method takes its part along the edge again
+    # a start nearly along the edge loses digits here; Newton's method removes what is left of its part along the edge
     start = plus_scaled(start, -dot(start, along), along)
     g, p, n = widest_from(at_place(body.cores, begin), along, start)
     s = dot(p, along)

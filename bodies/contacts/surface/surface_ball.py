@@ -10,7 +10,7 @@ from nonsmooth.types import Floats
 
 from ...vectors import Vector3, cross, divided, dot, minus, opposite, plus_scaled, vector_at
 from ..features.edge_crossing import CONE_MARGIN
-from ..features.edge_row import ALONG, Edge, direction_of
+from ..features.edge_vertex import ALONG, Edge, direction_of
 from ..features.ends import END, NEAR, OPEN, gap_past_end, past_vertex
 from ..features.frames import (
     point_in_world,

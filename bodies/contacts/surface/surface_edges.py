@@ -10,10 +10,9 @@ from nonsmooth.types import Floats
 
 from ...vectors import Vector3, cross, dot, norm, plus_scaled, vector_at, write_vector
 from ..features.edge_crossing import CONE_MARGIN, Crossing, cross_edges, least_round_sine, least_sine, sine_off_cones
-from ..features.edge_row import ALONG, INTO_FIRST, LENGTH, START, Edge
+from ..features.edge_vertex import ALONG, INTO_FIRST, LENGTH, START, Edge, Vertex
 from ..features.ends import CLOSED, END, gap_past_end
 from ..features.frames import point_in_body, point_seen_from
-from ..features.vertex import Vertex
 from ..features.writing import write_principal
 from .overlap_corners import common_direction, crossing_past_corner, part_of_overlap
 from .surface_tables import EXTENSIONS, N_FACES, SWEEP, Solid, are_convex, edge_at

@@ -13,9 +13,8 @@ from nonsmooth.types import Floats
 from ...vectors import Vector3, cross, divided, minus, norm, plus_scaled, scaled, vector_at, write_vector
 from ..features.bounds import squared_distance_of_segments
 from ..features.edge_crossing import CONE_MARGIN, sine_off_cones
-from ..features.edge_row import ALONG, LENGTH, START, Edge, direction_of
+from ..features.edge_vertex import ALONG, LENGTH, START, Edge, Vertex, direction_of, steepest
 from ..features.frames import point_seen_from, vector_seen_from
-from ..features.vertex import Vertex, steepest
 from .surface_search import distance_from_triangle, nearest_in_patch
 from .surface_tables import (
     N_EDGES,

@@ -21,7 +21,7 @@ from ...shapes.point import Point
 from ...shapes.sphere import Sphere
 from ...shapes.surface_shape import SurfaceShape
 from ..features.bounds import edges_bound
-from ..features.edge_row import Edge
+from ..features.edge_vertex import Edge
 from ..features.frames import point_seen_from
 from ..features.writing import NO_CANDIDATE, write_apart
 from .overlap_corners import Over
@@ -168,8 +168,10 @@ def _sides(features: Features) -> int:
 def limits(n_pairs: int, extents: Sequence[float]) -> dict[str, Value]:
     """Return the numbers that limit a search (:mod:`bodies.contacts.surface.surface_near`), by their names.
 
-    The bodies move by the margin together.  A body turns by its displacement over its extent [m]: the smaller one may
-    turn farther.  ``extents`` are those of the bodies that have edges; a ball does not turn.
+    ``most`` is the largest number of candidates; they may fill it up to a margin of ``narrow`` [m].  ``turning`` is the
+    largest relative rotation per margin [rad/m]: a body turns by at most the displacement of its points over its extent
+    [m], and both bodies together move by at most the margin.  ``extents`` are those of the bodies that have edges, one
+    or two; a ball does not turn.
     """
     most = float(min(n_pairs, MOST_NEAR))
     return {"most": most, "turning": 1.0 / min(extents), "narrow": NARROW * min(extents)}

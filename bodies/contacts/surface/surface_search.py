@@ -9,9 +9,8 @@ from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
 from ...vectors import Vector3, dot, minus, norm, plus, plus_scaled, scaled, vector_at
-from ..features.edge_row import ALONG, INTO_FIRST, INTO_SECOND, LENGTH
+from ..features.edge_vertex import ALONG, INTO_FIRST, INTO_SECOND, LENGTH, steepest
 from ..features.ends import REACH
-from ..features.vertex import steepest
 from .surface_tables import (
     BORDERS,
     CONCAVE,

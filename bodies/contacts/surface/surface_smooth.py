@@ -16,7 +16,7 @@ from ...shapes.smooth import SmoothShape, extent
 from ...shapes.support_function import is_round
 from ...shapes.surface_shape import SurfaceShape
 from ...vectors import minus, opposite, plus_scaled, vector_at
-from ..features.edge_row import START
+from ..features.edge_vertex import START
 from ..features.frames import axes_of, point_in_world, point_seen_from, vector_in_world
 from ..features.writing import NO_CANDIDATE, write_apart, write_contact
 from ..smooth.smooth_core import CENTER, POINT, RADIUS, Cores, axes_in_world, facing_point, largest_semi_axis, spread
@@ -40,7 +40,7 @@ A candidate has four numbers: its kind, the number of the patch, 0, and the dist
 
 def find_near_patches(a: Floats, b: Floats, out: Floats, surface: Floats, extent: float, place: Floats) -> None:
     """Find the patches with a feature near the ball that encloses the second body, about a place in its frame [m]."""
-    near = Near(out, NEAR, out[0], extent + out[0], 0.0, int(surface[N_PATCHES]))
+    near = Near(out, NEAR, out[0], extent + surface[SWEEP] + out[0], 0.0, int(surface[N_PATCHES]))
     out[0] = float(patches_near(surface, point_seen_from(a, b, vector_at(place, 0)), near, 0.0, 0))
 
 

@@ -20,7 +20,7 @@ from ...meshes.features import FLAT, Features
 from ...meshes.patches import Patches
 from ...meshes.topology import Integers, neighbours
 from ...vectors import Vector3, dot, vector_at
-from ..features.vertex import Vertex
+from ..features.edge_vertex import Vertex
 
 Numbers = tuple[float, ...]
 

@@ -10,9 +10,9 @@ from nonsmooth.types import Floats
 
 from ...vectors import Vector3, dot, minus, opposite, vector_at
 from ..features.edge_crossing import CONE_MARGIN
+from ..features.edge_vertex import Vertex, steepest
 from ..features.ends import CLOSED, REACH
 from ..features.frames import point_in_body, point_seen_from, vector_seen_from
-from ..features.vertex import Vertex, steepest
 from .overlap_corners import FLUSH
 from .surface_search import in_triangle, outward_of, past_edges
 from .surface_tables import (
@@ -90,9 +90,10 @@ def past_depth(
     depth of this face, and the distance of the point outside of the body, less what the margin ``CLOSED`` and the angle
     ``FLUSH`` of flush faces allow.
 
-    Only faces that the feature may touch count, however near others are: bodies with flush faces on springs are pressed
-    deeper into each other than their sides are apart.  An edge of the feature that leads below a face, or an end below
-    it, excludes this face.
+    A face is as deep as the largest of three lengths: how far either end is below its plane, and how far the point is
+    from its triangles.  Only faces that the feature may touch count, however near others are: bodies with flush faces
+    on springs are pressed deeper into each other than their sides are apart.  A feature may touch a face if none of its
+    edges descends below it by more than the sine ``CONE_MARGIN``.
 
     Parameters
     ----------
@@ -122,7 +123,6 @@ def past_depth(
             square, outward = outward_of(surface, face, row, point)
             if square < least:
                 least, side = square, outward
-            # depth of a face: of both ends below its plane, and of the point below its triangle, the largest
             deep = max(-face_height(surface, face, ends[0]), -face_height(surface, face, ends[1]))
             deep = max(deep, math.sqrt(square))
             if deep < least_deep and descent(solid, other, face, vertex) <= CONE_MARGIN:
