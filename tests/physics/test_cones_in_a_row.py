@@ -14,6 +14,15 @@ from laws import Bristle, Coulomb, EnergeticImpact, LinearCompliant, Unilateral
 RADIUS = 0.006
 
 
+def _run(system: ns.System, t_end: float) -> ns.Solution:
+    """Return what a run computed, to its end or until it failed."""
+    try:
+        return ns.simulate(system, t_end)
+    except ns.RunFailed as failed:
+        assert failed.solution is not None
+        return failed.solution
+
+
 @pytest.mark.fast_cases(4)
 @pytest.mark.parametrize("feet", [1e-8, 1e-6, 1e-4])
 @pytest.mark.parametrize("seed", range(6, 12))
@@ -42,18 +51,14 @@ def test_a_row_of_cones_is_pushed_and_none_passes_another(seed: int, feet: float
         system.place(cone, position=(place, aside, 0.5 * RADIUS), orientation=turn, velocity=(speed, 0.0, 0.0))
         room = 10.0 ** (rng.uniform(-4.0, -3.0) if i == 0 else rng.uniform(-12.0, -6.0))
         place += 2.0 * RADIUS + room
-    try:
-        solution = ns.simulate(system, 0.03)
-        assert solution.status == "done"
-    except ns.RunFailed as failed:
-        assert feet < 1e-4
-        assert "passed into each other" not in str(failed)
-        solution = failed.solution
+    solution = _run(system, 0.03)
+    is_done = solution.status == "done"
+    assert is_done or (feet < 1e-4 and "passed into each other" not in solution.message)
     first, second, third = (solution.of(cone)[0][:, 0] for cone in cones)
     # cones that lean on each other may come nearer than upright ones, which are two radii apart
     assert np.min(second - first) > RADIUS
     assert np.min(third - second) > RADIUS
-    assert solution.status != "done" or third[-1] > third[0]
+    assert not is_done or third[-1] > third[0]
 
 
 @pytest.mark.parametrize("seed", range(6))
