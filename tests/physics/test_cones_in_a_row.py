@@ -19,8 +19,9 @@ def _run(system: ns.System, t_end: float) -> ns.Solution:
     try:
         return ns.simulate(system, t_end)
     except ns.RunFailed as failed:
-        assert failed.solution is not None
-        return failed.solution
+        solution = failed.solution
+    assert isinstance(solution, ns.Solution)
+    return solution
 
 
 @pytest.mark.fast_cases(4)
