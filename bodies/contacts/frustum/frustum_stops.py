@@ -182,7 +182,7 @@ def _on_round_flank(pair: Pair, direction: Direction) -> NearestPoint:
     """Return the maximum of the gap over the side, continued past its rims, by Newton's method for one angle.
 
     It is the angle of the normal round the axis.  A step that lowers the gap is halved.  The gap is nan without
-    convergence.
+    convergence to a maximum.
     """
     frustum, size = pair.frustum, pair.size
     cosine, sine = frustum[COS], frustum[SIN]

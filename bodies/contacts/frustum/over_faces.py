@@ -248,7 +248,7 @@ def write_apex(a: Floats, out: Floats, frustum: Floats, solid: Solid, patch: flo
 def _tip_past_rim(b: Floats, vertex: Vertex, lengths: Floats, disc: Placed, n: Vector3, depth: float) -> float:
     """Return a length [m] that is negative if a vertex behind a disc went through the disc.
 
-    Each edge of the vertex that leads back through the disc's plane crosses it at a distance from the disc's centre.
+    Each edge that crosses the disc's plane in its half next to the vertex does so at a distance from the disc's centre.
     The result is the least of these distances, minus the disc's radius, plus ``depth``; it is infinite if no edge
     crosses the plane.  A negative result means that an edge crosses the disc inside of the rim by more than ``depth``:
     the disc leaves the vertex on a shorter way along its axis.  Otherwise it leaves the edges on the side of its rim.

@@ -128,10 +128,11 @@ def gap_by_point(cores: Cores, start: Vector3) -> NearestPoint:
 
 @compiled
 def write_boxy(out: Floats, side: int, core: Core, axes: Axes, p: Vector3) -> None:
-    """Write the curvature matrices of a boxy body: slide is the shape operator K of its core, turn is 1 + radius K.
+    """Write the curvature matrices of a boxy body: slide [1/m] is K + k, turn [1] is 1 + radius slide.
 
-    The contact point of the core is p, in the axes of the core [m].  The geometry block ``out`` must already hold
-    normal and first tangent; ``side`` is the index of the matrices in it.  ``axes`` are the core's axes in the world.
+    K is the shape operator of its core; k = ``_FLATTEST`` / size keeps slide from 0 at flat points.  The contact point
+    of the core is p [m]; ``axes`` are the axes of the core, to which p refers, in the world.  The geometry block
+    ``out`` must already hold normal and first tangent; ``side`` is the index of the matrices in it.
     """
     _, _, first, second, (k11, k12, k22) = place_on(core, p)
     least = _FLATTEST / largest_semi_axis(core)

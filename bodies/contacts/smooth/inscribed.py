@@ -5,8 +5,8 @@ point.  In every direction, the gap between the bodies is at most the gap betwee
 inside.  If the sum of the radii is d or more, the gap between the balls is at most -d in every direction.
 
 The radius of a ball follows from a function that is 1 on the surface of its body and less inside.  Let G be the
-function's gradient at the contact point, L a bound of its second derivative within the distance d of the point.  In the
-ball of the radius G / L the function stays below 1.
+function's gradient at the contact point, L a bound of its second derivative in the ball of radius d that touches the
+surface there from inside.  In the ball of the radius G / L, at most d, the function stays below 1.
 """
 
 from __future__ import annotations

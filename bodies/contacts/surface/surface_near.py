@@ -266,12 +266,12 @@ def find_near_features(
     surface_a, surface_b : Floats
         Surfaces of both bodies (:mod:`bodies.contacts.surface.surface_tables`).
     most : float
-        Largest number of candidates; one more is written if there are more.
+        Room for candidates; on return ``out[0]`` exceeds it if there are too many.
     turning : float
         Largest relative rotation of the bodies until the next search, per metre of the largest gap [rad/m].
     narrow : float
-        Largest gap up to which the candidates may fill all contacts [m]
-        (:func:`bodies.contacts.surface.surface_near.room_ahead`).
+        Largest gap up to which the candidates may fill this room [m]; beyond it the limit is lower
+        (:func:`room_ahead`).
     """
     margin, limit = out[0], room_ahead(out[0], narrow, int(most))
     # distances are measured between the cores
