@@ -270,8 +270,7 @@ def find_near_features(
     turning : float
         Largest relative rotation of the bodies until the next search, per metre of the largest gap [rad/m].
     narrow : float
-        Largest gap up to which the candidates may fill this room [m]; beyond it the limit is lower
-        (:func:`room_ahead`).
+        Largest gap up to which the candidates may fill this room [m] (:func:`room_ahead`).
     """
     margin, limit = out[0], room_ahead(out[0], narrow, int(most))
     # distances are measured between the cores
