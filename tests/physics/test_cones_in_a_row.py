@@ -14,25 +14,11 @@ from laws import Bristle, Coulomb, EnergeticImpact, LinearCompliant, Unilateral
 RADIUS = 0.006
 
 
-def _run(system: ns.System, t_end: float) -> ns.Solution:
-    """Return what a run computed, to its end or until it failed."""
-    try:
-        return ns.simulate(system, t_end)
-    except ns.RunFailed as failed:
-        solution = failed.solution
-    assert isinstance(solution, ns.Solution)
-    return solution
-
-
 @pytest.mark.fast_cases(4)
 @pytest.mark.parametrize("feet", [1e-8, 1e-6, 1e-4])
 @pytest.mark.parametrize("seed", range(6, 12))
 def test_a_row_of_cones_is_pushed_and_none_passes_another(seed: int, feet: float) -> None:
-    """The first one slides into two that touch within the tolerances, turned and shifted by very little.
-
-    On feet of a millionth of the radius and less, flat rims hit each other many times at one instant.  A run may then
-    end by name; what it computed until then is right.
-    """
+    """The first one slides into two that touch within the tolerances, turned and shifted by very little."""
     rng = np.random.default_rng(seed)
     friction, restitution = rng.uniform(0.1, 0.8), rng.uniform(0.0, 0.5)
     laws: dict[str, Any] = {
@@ -52,14 +38,12 @@ def test_a_row_of_cones_is_pushed_and_none_passes_another(seed: int, feet: float
         system.place(cone, position=(place, aside, 0.5 * RADIUS), orientation=turn, velocity=(speed, 0.0, 0.0))
         room = 10.0 ** (rng.uniform(-4.0, -3.0) if i == 0 else rng.uniform(-12.0, -6.0))
         place += 2.0 * RADIUS + room
-    solution = _run(system, 0.03)
-    is_done = solution.status == "done"
-    assert is_done or (feet < 1e-4 and "passed into each other" not in solution.message)
+    solution = ns.simulate(system, 0.03)
     first, second, third = (solution.of(cone)[0][:, 0] for cone in cones)
     # cones that lean on each other may come nearer than upright ones, which are two radii apart
     assert np.min(second - first) > RADIUS
     assert np.min(third - second) > RADIUS
-    assert not is_done or third[-1] > third[0]
+    assert third[-1] > third[0]
 
 
 @pytest.mark.parametrize("seed", range(6))

@@ -1,6 +1,8 @@
 """Contacts of two frustums where their sides cross, where a rim or apex lies over a side, and where rims cross.
 
-Distances over a circle or a side are functions of an angle; :mod:`bodies.contacts.frustum.circle` minimises them.
+Distances over a circle or a side are functions of an angle; :mod:`bodies.contacts.frustum.circle` minimises them.  The
+search and the result are in the same axes, those of the second body: within a step the quaternion of a body is not
+normalised, so that its axes and those of the world do not agree to the last digits.
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ from typing import NamedTuple
 from nonsmooth.compiled import compiled
 from nonsmooth.types import Floats
 
-from ...rotations import Axes, rotated_back
+from ...rotations import rotated, rotated_back
 from ...shapes.frustum import COS, LOW, LOW_RADIUS, SIDE, SIN, SWEEP
 from ...vectors import Vector3, cross, divided, dot, minus, norm, opposite, plus, plus_scaled, scaled
 from ..features.edge_crossing import PARALLEL, least_round_sine
@@ -19,7 +21,7 @@ from ..features.ends import CLOSED, REACH
 from ..features.frames import across
 from ..smooth.smooth_core import axes_in_world
 from .circle import least_sample, zero_of_slope
-from .frustum import FLANK, along_side, normal_of_part, rim_of
+from .frustum import FLANK, along_side, rim_of
 from .frustum_placed import Placed, placed
 from .frustum_writing import Spot, off_cone_of_rim, off_side, past_border, past_depth, write_pair
 
@@ -175,12 +177,6 @@ def _directions(g: Vector3, h: Vector3, angle: float) -> tuple[Vector3, Vector3]
 
 
 @compiled
-def _seen_along(axes: Axes, radius: float, middle: Vector3, g: Vector3, h: Vector3) -> _Circle:
-    """Return a circle in other axes; its vectors are given in the world."""
-    return _Circle(radius, rotated_back(axes, middle), rotated_back(axes, g), rotated_back(axes, h))
-
-
-@compiled
 def _about_axis(circle: _Circle, angle: float) -> tuple[Vector3, Vector3]:
     """Return distance from the third axis and third coordinate [m] of a circle's point at an angle.
 
@@ -254,12 +250,13 @@ def evaluate_rim_over_side(
     own, other = (b, a) if swap == 1.0 else (a, b)
     one, two, axes = placed(own, first), placed(other, second), axes_in_world(other, second)
     radius, height, _ = rim_of(first, rim)
-    # in world axes: centre of the rim from that of the side; unit vectors h, along the projection of the side's axis on
+    # in the axes of the side: axis and centre of the rim; unit vectors h, along the projection of the side's axis on
     # the plane of the rim, and g, perpendicular to h
-    middle = minus(plus_scaled(one.center, height, one.axis), two.center)
-    _, _, h = across(two.axis, one.axis)
-    g, h = cross(h, one.axis), scaled(half, h)
-    plane_to_axis = math.asin(min(abs(dot(one.axis, two.axis)), 1.0))
+    axis = rotated_back(axes, one.axis)
+    middle = plus_scaled(rotated_back(axes, minus(one.center, two.center)), height, axis)
+    _, _, h = across((0.0, 0.0, 1.0), axis)
+    g, h = cross(h, axis), scaled(half, h)
+    plane_to_axis = math.asin(min(abs(axis[2]), 1.0))
     is_steep = plane_to_axis > _STEEP and abs(plane_to_axis - math.asin(second[SIN])) > _STEEP
     # the apex, a rim of radius 0, needs no search
     angle, has_minimum = 0.0, True
@@ -267,23 +264,21 @@ def evaluate_rim_over_side(
         low, high = 0.0, math.pi
         if is_steep:
             # search the whole rim; the interval begins at the point farthest from the side's axis
-            _, _, to_middle = across(middle, two.axis)
-            low = math.atan2(dot(to_middle, h), dot(to_middle, g))
+            low = math.atan2(middle[0] * h[0] + middle[1] * h[1], middle[0] * g[0] + middle[1] * g[1])
             high = low + 2.0 * math.pi
-        angle, has_minimum = _lowest_angle(_seen_along(axes, radius, middle, g, h), second, low, high)
-    of_rim, _ = _directions(g, h, angle)
-    point = plus_scaled(middle, radius, of_rim)
-    along, away, of_side = across(point, two.axis)
-    if away < REACH * size:
-        # next to the axis all directions are radial: take the one for which the normal belongs to the rim
-        _, _, of_side = across(opposite(of_rim), two.axis)
+        angle, has_minimum = _lowest_angle(_Circle(radius, middle, g, h), second, low, high)
+    outward, _ = _directions(g, h, angle)
+    x, y, along = plus_scaled(middle, radius, outward)
+    away = math.sqrt(x * x + y * y)
+    ex, ey = (x / away, y / away) if away > 0.0 else (1.0, 0.0)
     gap, up_side = along_side(second, along, away)
-    n = opposite(normal_of_part(two.axis, of_side, second[COS], second[SIN]))
+    cosine, sine = second[COS], second[SIN]
+    n, point = rotated(axes, (-cosine * ex, -cosine * ey, -sine)), rotated(axes, (x, y, along))
+    of_rim = rotated(axes, outward)
     if radius == 0.0:
         # the normals of an apex are those of a rim in all directions
         _, _, of_rim = across(n, one.axis)
-    own_spot = Spot(one, int(rim), of_rim, radius)
-    other_spot = Spot(two, FLANK, of_side, max(away - gap * second[COS], 0.0))
+    own_spot, other_spot = Spot(one, int(rim), of_rim, radius), Spot(two, FLANK, point, max(away - gap * cosine, 0.0))
     past_ends = max(-up_side, up_side - second[SIDE])
     if first[SWEEP] + second[SWEEP] > 0.0:
         # extend the side past its end, until the contact of both rims is valid
@@ -357,37 +352,38 @@ def evaluate_rims(
     """
     one, two, axes = placed(a, first), placed(b, second), axes_in_world(b, second)
     (radius, height, _), (other_radius, other_height, _) = rim_of(first, rim_a), rim_of(second, rim_b)
-    other_center = plus_scaled(two.center, other_height, two.axis)
-    # in world axes: centre of the first rim, from that of the second; unit vectors g, in the plane of the first rim
-    # towards the second rim's centre, and h, perpendicular to it
-    middle = minus(plus_scaled(one.center, height, one.axis), other_center)
-    _, _, g = across(opposite(middle), one.axis)
-    h = scaled(half, cross(one.axis, g))
-    circle = _seen_along(axes, radius, middle, g, h)
+    # in the axes of the second body: axis of the first rim, and its centre from that of the second; unit vectors g, in
+    # the plane of the first rim towards the second rim's centre, and h, perpendicular to it
+    axis = rotated_back(axes, one.axis)
+    x, y, z = plus_scaled(rotated_back(axes, minus(one.center, two.center)), height, axis)
+    middle = (x, y, z - other_height)
+    _, _, g = across(opposite(middle), axis)
+    h = scaled(half, cross(axis, g))
+    circle = _Circle(radius, middle, g, h)
     angle = _nearest_angle(circle, other_radius)
     is_round = first[SWEEP] + second[SWEEP] > 0.0
     are_discs = not is_round and first[SIDE] == 0.0 and second[SIDE] == 0.0
     # discs in one plane touch on the line of centres, where their rims are parallel; other discs cross or pass by
-    to_nearest, both_axes = plus_scaled(middle, radius, g), cross(one.axis, two.axis)
-    is_edge_to_edge = (
-        are_discs and dot(both_axes, both_axes) <= CLOSED and abs(dot(to_nearest, two.axis)) <= CLOSED * size
-    )
+    is_parallel = axis[0] * axis[0] + axis[1] * axis[1] <= CLOSED
+    is_edge_to_edge = are_discs and is_parallel and abs(middle[2] + radius * g[2]) <= CLOSED * size
     if is_edge_to_edge:
         angle = 0.0
     # u and t: outward radius and tangent of the first rim at the crossing; e: outward radius of the second rim there;
     # w: vector from the first rim's point to the second's
     u, t = _directions(g, h, angle)
-    point = plus_scaled(middle, radius, u)
-    _, _, e = across(point, two.axis)
-    w = minus(scaled(other_radius, e), point)
+    x, y, z = plus_scaled(middle, radius, u)
+    away = math.sqrt(x * x + y * y)
+    e = (x / away, y / away, 0.0) if away > 0.0 else (1.0, 0.0, 0.0)
+    w = (other_radius * e[0] - x, other_radius * e[1] - y, -z)
     # of two discs edge to edge, the second rim has the curvature of a cylinder's side, so that the normal stays radial
     # while one edge slips over the other
-    own, other = Spot(one, int(rim_a), u, radius), Spot(two, FLANK if is_edge_to_edge else int(rim_b), e, other_radius)
-    # normal: cross product of both tangents
-    n = cross(t, cross(two.axis, e))
+    own = Spot(one, int(rim_a), rotated(axes, u), radius)
+    other = Spot(two, FLANK if is_edge_to_edge else int(rim_b), rotated(axes, e), other_radius)
+    # normal: cross product of both tangents; that of the second rim is (-ey, ex, 0)
+    n = (-t[2] * e[0], -t[2] * e[1], t[0] * e[0] + t[1] * e[1])
     sine, apart = norm(n), norm(w)
     # rounded rims that lie on each other along the whole circle are left to the contacts of rims over caps
-    is_ring = is_round and sine <= PARALLEL and across(w, two.axis)[1] < REACH * apart
+    is_ring = is_round and sine <= PARALLEL and math.hypot(w[0], w[1]) < REACH * apart
     are_cores_apart = is_round and apart > 1e-9 * size
     if are_cores_apart:
         # the line between the points, also for parallel tangents
@@ -396,14 +392,15 @@ def evaluate_rims(
         n, sine = u, 1.0 if is_edge_to_edge else 0.0
     else:
         n = divided(n, sine)
-    off_cone = max(off_cone_of_rim(own, n), off_cone_of_rim(other, opposite(n)))
-    off_reversed = max(off_cone_of_rim(own, opposite(n)), off_cone_of_rim(other, n))
+    normal = rotated(axes, n)
+    off_cone = max(off_cone_of_rim(own, normal), off_cone_of_rim(other, opposite(normal)))
+    off_reversed = max(off_cone_of_rim(own, opposite(normal)), off_cone_of_rim(other, normal))
     if off_reversed <= off_cone and not are_cores_apart:
         # the sign for which the normal is nearer to the normal cones of both rims
-        n, off_cone = opposite(n), off_reversed
+        n, normal, off_cone = opposite(n), opposite(normal), off_reversed
     gap = dot(n, w)
     past = past_border(-size, off_cone, size)
-    off_side_a, off_side_b = off_side(own, n), off_side(other, opposite(n))
+    off_side_a, off_side_b = off_side(own, normal), off_side(other, opposite(normal))
     if is_round:
         # if the normal is close to a side's normal, the contact of a rim over the side applies
         past = max(past, _ASIDE * size - apart * min(off_side_a, off_side_b))
@@ -422,4 +419,5 @@ def evaluate_rims(
     if are_discs and gap < 0.0 and not is_edge_to_edge:
         # discs overlap at a crossing only if they are linked there; one lies at least so deep inside of the other
         past = max(past, sine * (-0.5 * gap - REACH * size) - _link_depth(circle, other_radius))
-    write_pair(a, out, 0.0, gap, past, n, plus(other_center, point), own, other)
+    point = plus(two.center, rotated(axes, (x, y, z + other_height)))
+    write_pair(a, out, 0.0, gap, past, normal, point, own, other)
